@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "record/run_folder.hpp"
+#include "render/renderer.hpp"
+#include "scene/scene.hpp"
+
+namespace hibi {
+
+struct DrawOptions {
+    RendererOptions renderer{};
+    bool movie = true;                   ///< movie.mp4 beside frames and poster
+    bool frames = true;                  ///< keep the PNG frames
+    std::function<void(int done, int total)> progress{};
+};
+
+struct DrawResult {
+    int frames = 0;
+    double draw_seconds = 0, encode_seconds = 0;  ///< wall time; and the encoder's own share
+    std::string renderer;
+};
+
+/// frames/, frames.json, movie.mp4 and poster.png of a recorded run, from its states alone: the one way pictures are made, by
+/// `run` as by `render`. Frames, PNG workers and the encoder overlap.
+DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options);
+
+/// The body as it stands before the run, with supports, loads and notches.
+void draw_setup(const Scene& scene, const std::filesystem::path& png, const DrawOptions& options);
+
+}  // namespace hibi

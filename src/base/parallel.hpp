@@ -1,0 +1,35 @@
+#pragma once
+#include <algorithm>
+#include <vector>
+
+namespace hibi {
+
+/// Number of threads used by parallel_for and parallel_sum (default: all cores of the machine).
+int threads();
+void set_threads(int count);
+
+/// Elements per block. Block borders depend on n alone, so sums have the same bits on any number of threads.
+inline constexpr int parallel_block = 1024;
+/// Below this many elements waking a second thread costs more than it saves (measured on steps of 0.1 ms).
+inline constexpr int parallel_minimum = 4 * parallel_block;
+
+/// Calls body(begin, end) for every block of [0, n), blocks spread over the threads.
+template <class Body>
+void parallel_for(int n, Body&& body) {
+    const int blocks = (n + parallel_block - 1) / parallel_block;
+#pragma omp parallel for schedule(static) num_threads(threads()) if (n >= parallel_minimum)
+    for (int b = 0; b < blocks; ++b) body(b * parallel_block, std::min(n, (b + 1) * parallel_block));
+}
+
+/// Sum of body(begin, end) over the same blocks, added in the order of the blocks. T needs += and T{} as zero.
+template <class T, class Body>
+T parallel_sum(int n, Body&& body) {
+    const int blocks = (n + parallel_block - 1) / parallel_block;
+    std::vector<T> part(blocks);
+    parallel_for(n, [&](int begin, int end) { part[begin / parallel_block] = body(begin, end); });
+    T sum{};
+    for (const T& p : part) sum += p;
+    return sum;
+}
+
+}  // namespace hibi

@@ -1,0 +1,34 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "base/vec.hpp"
+
+namespace hibi {
+
+enum class EventName { start, first_break, peak_load, separation, end };
+const char* to_string(EventName name);
+std::optional<EventName> event_from(const std::string& text);
+
+/// A time, or an event plus an offset.
+struct Moment {
+    std::optional<EventName> event{};
+    double offset = 0;  ///< (s); the time itself where there is no event
+};
+
+/// What was true when something happened. SI; direction and sign of load and displacement as in Load.
+struct Event {
+    double time = 0, load = 0, displacement = 0;
+    Vec3 position = Vec3::Zero();  ///< of the bond concerned (reference configuration); zero where there is none
+};
+
+/// The events of a run; empty: has not happened (yet).
+struct Events {
+    std::optional<Event> first_break{}, peak_load{}, separation{};
+    double end = 0;  ///< time of the last step (s)
+
+    /// Time of a moment, or nothing if its event has not happened.
+    std::optional<double> time_of(const Moment& moment) const;
+};
+
+}  // namespace hibi

@@ -1,0 +1,25 @@
+#pragma once
+#include <limits>
+#include <vector>
+
+namespace hibi {
+
+/// One entry per bond. A bond is stored once, so it breaks once, and can be drawn and counted.
+/// Sorted by (first, second), first < second.
+struct Bonds {
+    static constexpr double intact = std::numeric_limits<double>::infinity();
+
+    std::vector<int> first, second;   ///< particle indices
+    std::vector<double> rest_length;  ///< |X_second - X_first| (m)
+    std::vector<double> broken_at;    ///< time of failure (s), or `intact`
+    std::vector<int> start, bonds_of; ///< bonds of particle i: bonds_of[start[i] .. start[i+1])
+
+    int count() const { return static_cast<int>(first.size()); }
+    bool is_intact(int bond) const { return broken_at[bond] == intact; }
+    int other(int bond, int particle) const { return first[bond] == particle ? second[bond] : first[bond]; }
+};
+
+/// Fills start and bonds_of from first and second; the bonds of a particle come in rising order of the bond.
+void index_bonds(Bonds& bonds, int particles);
+
+}  // namespace hibi

@@ -1,0 +1,97 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/history.hpp"
+#include "measure/moment.hpp"
+#include "measure/snapshot.hpp"
+
+namespace hibi {
+
+/// The numbers of run.json; key names are a contract with scripts: add freely, rename never.
+struct RunSummary {
+    std::string title, scene_hash, scene_file, version;
+    int particles = 0, bonds = 0, broken = 0, frames = 0, threads = 0;
+    std::int64_t steps = 0;
+    double time_step = 0, end_time = 0;
+    Events events;
+    double worst_imbalance = 0, imbalance_at_first_break = 0;
+    bool trusted = true;
+    std::map<std::string, double> seconds;   ///< setup, solve, draw, encode, total
+    std::optional<std::string> stopped;      ///< why the run ended early, in words
+    std::vector<std::string> warnings;
+};
+
+/// Writes the folder of a run while it goes on. Every file is written under a temporary name and renamed, but
+/// history.csv and breaks.csv, which grow. States are written by a thread of its own; its errors are thrown by
+/// the next call. The state of step n is states/<n, six digits or more>.hdf; the topology, which all states share
+/// by HDF5 external links, is states/topology.hdf.
+class RunWriter {
+  public:
+    /// Creates the folder; removes what an earlier run left in it, and nothing else.
+    /// Throws std::runtime_error naming the folder where it cannot be written.
+    explicit RunWriter(std::filesystem::path folder);
+    ~RunWriter();
+    RunWriter(const RunWriter&) = delete;
+    RunWriter& operator=(const RunWriter&) = delete;
+
+    void scene(const std::string& toml);
+    void topology(Topology topology);                 ///< before the first state
+    void history_header(const std::vector<std::string>& load_names, int dimension);
+    void row(const HistoryRow& row);
+    void breaks(const std::vector<Break>& breaks);
+    void state(Snapshot snapshot);                    ///< queued; ignored if that step is already there
+    void drop_state(std::int64_t step);               ///< a state no longer wanted
+    /// Waits for the queue, writes states.hdf.series and run.json. May fail, so it is no destructor.
+    void finish(const RunSummary& summary);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Rewrites DIR/run.json (after drawing, say).
+void write_summary(const std::filesystem::path& folder, const RunSummary& summary);
+
+struct StateInfo {
+    double time = 0;
+    std::int64_t step = 0;
+    std::filesystem::path file;
+};
+
+/// What drawing needs of a recorded run. Small parts are read at once, states one by one.
+/// Every error names the file and what is wrong with it (std::runtime_error).
+class RunReader {
+  public:
+    explicit RunReader(std::filesystem::path folder);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const Topology& topology() const { return topology_; }
+    const History& history() const { return history_; }
+    const std::vector<StateInfo>& states() const { return states_; }   ///< in rising order of time
+    const std::vector<double>& broken_at() const { return broken_at_; }///< per bond (s), infinity where intact
+    const RunSummary& summary() const { return summary_; }
+    Snapshot read(int state) const;
+
+    /// Extent of one state without reading all of it: smallest and largest position and, by field name of
+    /// scalar_field, smallest and largest value. Stored with the state when it was written.
+    struct Extent {
+        Vec3 low, high;
+        std::map<std::string, std::array<float, 2>> range;
+    };
+    Extent extent(int state) const;
+
+  private:
+    std::filesystem::path folder_;
+    Topology topology_;
+    History history_;
+    std::vector<StateInfo> states_;
+    std::vector<double> broken_at_;
+    RunSummary summary_;
+};
+
+}  // namespace hibi

@@ -1,0 +1,55 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/camera.hpp"
+#include "image/image.hpp"
+#include "image/theme.hpp"
+#include "image/view.hpp"
+#include "measure/snapshot.hpp"
+
+namespace hibi {
+
+/// Which library makes the OpenGL context. Both give the same pixels.
+enum class GlBackend { osmesa, egl };
+
+/// Where shaders come from: those built into the program, or a folder, so that a look can be tuned without compiling.
+struct RendererOptions {
+    GlBackend backend = GlBackend::osmesa;
+    std::optional<std::filesystem::path> shaders{};
+};
+
+/// One moment, ready to be drawn.
+struct Picture2 {
+    Camera2 camera;
+    std::vector<float> x, y;            ///< current positions (m), displacement magnified as the view asks
+    std::vector<float> value;           ///< 0..1 per particle: place in the colour map
+    std::vector<int> intact;            ///< bonds to draw as intact
+    std::vector<int> broken;            ///< bonds to draw as crack faces
+    std::vector<float> freshness;       ///< per broken bond: 1 just broken .. 0 old trace
+};
+
+/// Draws particles, intact and broken bonds on the theme's background; not thread-safe, and it must be used on the
+/// thread that made it. Errors: std::runtime_error naming the library or the shader.
+class Renderer {
+  public:
+    Renderer(const View& view, const Topology& topology, const RendererOptions& options = {});
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Fills the whole image (view size) with the background and the picture, clipped to camera.rect.
+    void draw(const Picture2& picture, Image& image);
+
+    /// e.g. "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6, OSMesa"
+    std::string description() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hibi

@@ -1,0 +1,121 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/field.hpp"
+#include "image/view.hpp"
+#include "measure/moment.hpp"
+#include "measure/snapshot.hpp"
+#include "model/model.hpp"
+#include "physics/physics.hpp"
+
+namespace hibi {
+
+/// A `where` of the scene: a condition on the reference position, and perhaps one body.
+struct Selection {
+    std::string text;                               ///< as written; empty: everything
+    std::function<bool(const Vec3& X)> condition{}; ///< empty: everything
+    int body = -1;                                  ///< index of a body, or -1 for all
+
+    bool operator()(const Vec3& X, int its_body) const {
+        return (body < 0 || body == its_body) && (!condition || condition(X));
+    }
+};
+
+/// A name of [params]: a quantity or an expression over earlier names. `value` is SI.
+struct Parameter {
+    std::string name, text;
+    double value = 0;
+};
+
+struct BodySpec {
+    std::string name, material;
+    Shape<2> shape;
+    Field spacing;                             ///< constant (m)
+    std::vector<std::string> bonded_to{};
+    std::array<Field, 2> velocity{};           ///< initial (m/s); may vary over x, y
+    double spin = 0;                           ///< initial, about the centre of mass (rad/s)
+};
+
+struct FixSpec {
+    std::string name;
+    Selection where;
+    std::array<bool, 3> axes{};
+};
+
+struct LoadSpec {
+    std::string name;
+    std::optional<Selection> where{};
+    std::optional<std::string> face{};         ///< left, right, bottom, top of `face_body`
+    int face_body = 0;
+    Load::Kind kind = Load::Kind::force;
+    std::array<Field, 3> value{};
+    std::array<bool, 3> driven{};
+    double ramp = 0;                           ///< (s)
+    std::optional<Moment> until{};             ///< releases it
+    bool primary = false;
+    bool no_fail = false;
+};
+
+struct DampingSpec {
+    Damping damping;
+    std::optional<Moment> until{};
+};
+
+struct RunSpec {
+    std::optional<Moment> until{};             ///< absent: max_time
+    double max_time = 0;                       ///< (s), required
+    std::optional<double> time_step{}, time_step_factor{};
+};
+
+struct SlowSpec {
+    Moment around;
+    double span = 0;                           ///< (s); a fifth of it before the event
+    double rate = 1;
+};
+
+struct MovieSpec {
+    double duration = 12;                      ///< of the whole film (s)
+    int fps = 25;
+    std::vector<SlowSpec> slow{};
+    int frames() const { return std::max(1, static_cast<int>(duration * fps + 0.5)); }
+};
+
+/// A whole experiment, checked; SI. Defaults stand here and in the structs it collects, once.
+struct Scene {
+    std::filesystem::path file;
+    std::string title, about;
+    std::vector<Parameter> params;
+    int dimension = 2;
+    Assumption assumption = Assumption::plane_stress;
+    double thickness = 1;                      ///< (m)
+    double influence = 2.1;                    ///< r_e / l0
+    Elasticity elasticity = Elasticity::moment_matched;
+    std::vector<Material> materials;
+    std::vector<BodySpec> bodies;
+    std::vector<Notch<2>> notches;
+    std::vector<FixSpec> fixes;
+    std::vector<LoadSpec> loads;
+    std::optional<Gravity> gravity{};
+    std::optional<DampingSpec> damping{};
+    RunSpec run;
+    View view;
+    MovieSpec movie;
+};
+
+/// What the solver gets.
+template <int Dim>
+struct Built {
+    Model<Dim> model;
+    Physics physics;
+    std::vector<std::array<Vec3, 2>> notches;  ///< segments, for drawing
+    std::vector<double> lattice_area_error;    ///< per body: area of its particles over area of its shape, minus 1
+};
+
+}  // namespace hibi
