@@ -10,16 +10,17 @@ namespace hibi {
 struct Video {
     int width = 0, height = 0;  ///< even
     int fps = 25;
-    int threads = 0;            ///< 0: the encoder's choice
-    int quality = 18;           ///< x264 constant rate factor
+    int threads = 0;                                ///< 0: the encoder's choice
+    int quality = 18;                               ///< x264 constant rate factor
     std::map<std::string, std::string> metadata{};  ///< title, comment, ...
 };
 
 /// H.264 in MP4: yuv420p, BT.709 limited range, constant frame rate, a key frame every 25 frames or fewer.
-/// Written as a fragmented file under a temporary name, so a killed run leaves a playable film; finish() rewrites
-/// it with the index in front and gives it its name. Errors: std::runtime_error naming the file and the operation.
+/// Written as a fragmented file under a temporary name, so a killed run leaves a playable film; finish()
+/// rewrites it with the index in front and gives it its name. Errors: std::runtime_error naming the file and
+/// the operation.
 class Encoder {
-  public:
+ public:
     Encoder(std::filesystem::path file, const Video& video);
     ~Encoder();
     Encoder(const Encoder&) = delete;
@@ -29,7 +30,7 @@ class Encoder {
     void add(const std::uint8_t* bgra, int stride);
     void finish();
 
-  private:
+ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

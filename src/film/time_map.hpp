@@ -19,18 +19,18 @@ struct Emphasis {
 
 /// Film time -> simulated time: piecewise linear and never falling. Built once, from the end of the run.
 class TimeMap {
-  public:
-    /// Slow spans are played at their rate relative to the rest. Without any, and with an emphasis, the span from just before
-    /// first break to separation fills at least a third of the film.
+ public:
+    /// Slow spans are played at their rate relative to the rest. Without any, and with an emphasis, the span
+    /// from just before first break to separation fills at least a third of the film.
     TimeMap(double begin, double end, double duration, const std::vector<SlowSpan>& slow,
             const std::optional<Emphasis>& emphasis);
 
-    double simulated(double film) const;   ///< (s)
-    double film(double simulated) const;   ///< inverse; the earliest film time where it is not unique
+    double simulated(double film) const;  ///< (s)
+    double film(double simulated) const;  ///< inverse; the earliest film time where it is not unique
     double duration() const { return knots_.back().first; }
     const std::vector<std::pair<double, double>>& knots() const { return knots_; }  ///< film, simulated
 
-  private:
+ private:
     std::vector<std::pair<double, double>> knots_;
 };
 

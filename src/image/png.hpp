@@ -8,11 +8,17 @@
 
 namespace hibi {
 
+/// Keyword -> UTF-8 text, stored beside the pixels. Plain ASCII goes into tEXt chunks, anything else into
+/// iTXt.
+using PngText = std::map<std::string, std::string>;
+
 /// RGB, 8 bits, no alpha. Fast setting (zlib level 1, SUB filter, run lengths); `small` for single figures.
-std::vector<unsigned char> encode_png(const Image& image, const std::map<std::string, std::string>& text = {}, bool small = false);
+std::vector<unsigned char> encode_png(const Image& image, const PngText& text = {}, bool small = false);
 /// The same to a file, under a temporary name first. Errors: std::runtime_error naming the file.
-void write_png(const std::filesystem::path& file, const Image& image, const std::map<std::string, std::string>& text = {}, bool small = false);
-/// Reads any 8-bit RGB(A) PNG; throws std::runtime_error naming the file and what is wrong with it.
-Image read_png(const std::filesystem::path& file);
+void write_png(const std::filesystem::path& file, const Image& image, const PngText& text = {},
+               bool small = false);
+/// Reads any PNG (alpha is dropped, fewer channels are filled up, 16 bits are cut to 8), and its texts if
+/// wanted. Throws std::runtime_error naming the file and what is wrong with it.
+Image read_png(const std::filesystem::path& file, PngText* text = nullptr);
 
 }  // namespace hibi

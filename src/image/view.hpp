@@ -8,15 +8,16 @@ namespace hibi {
 
 /// How a run is pictured: the [view] block of a scene.
 struct View {
-    int width = 1920, height = 1080;        ///< pixels; even
-    std::string field = "bond_strain";      ///< what colours the particles: a name of scalar_field
-    std::string map = "inferno";            ///< a name of colour_map_names()
-    std::optional<std::array<double, 2>> range{};  ///< in the field's SI unit; absent: fixed over the whole run
-    std::string theme = "dark";             ///< dark, light, print
+    int width = 1920, height = 1080;    ///< pixels; even
+    std::string field = "bond_strain";  ///< what colours the particles: a name of scalar_field
+    std::string map = "inferno";        ///< a name of colour_map_names()
+    std::optional<std::array<double, 2>>
+        range{};                 ///< in the field's SI unit; absent: fixed over the whole run
+    std::string theme = "dark";  ///< dark, light, print
     std::vector<std::string> show = all_parts();
     std::optional<std::array<double, 4>> window{};  ///< x0, y0, x1, y1 (m); absent: the run up to separation
-    std::string bonds = "nearest";          ///< which intact bonds are drawn: none, nearest, all
-    double magnify = 1;                     ///< displacements are drawn this many times as large
+    std::string bonds = "nearest";                  ///< which intact bonds are drawn: none, nearest, all
+    double magnify = 1;                             ///< displacements are drawn this many times as large
 
     static std::vector<std::string> all_parts() {
         return {"title", "time", "load", "counts", "colour_bar", "scale_bar", "supports", "loads", "curve"};

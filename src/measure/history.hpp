@@ -13,7 +13,7 @@ struct HistoryRow {
     double imbalance = 0;  ///< |kinetic + elastic + contact + damped + released - work| over the scale so far [-]
     int broken = 0;
     Vec3 momentum = Vec3::Zero();            ///< (kg m/s)
-    std::vector<double> loads, displacements;  ///< per load, in the order of History::load_names
+    std::vector<double> loads{}, displacements{};  ///< per load, in the order of History::load_names
 };
 
 struct History {

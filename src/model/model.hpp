@@ -1,5 +1,7 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/bonds.hpp"
@@ -27,10 +29,17 @@ struct Body {
     int begin = 0, end = 0;         ///< its particles, once filled
 };
 
+/// Rotation of the particles as unknowns of their own: the thesis variant only, in the plane.
+struct Spin {
+    std::vector<double> angle, velocity, torque;  ///< (rad), (rad/s), (N m)
+    std::vector<double> inertia;                  ///< m l0^2 / 6 (kg m^2)
+};
+
 template <int Dim>
 struct Model {
     Particles<Dim> particles;
     Bonds bonds;
+    std::optional<Spin> spin{};
     std::vector<Material> materials;
     std::vector<Body<Dim>> bodies;
     Assumption assumption = Assumption::plane_stress;

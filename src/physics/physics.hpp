@@ -16,8 +16,8 @@ enum class Elasticity { moment_matched, thesis };
 
 /// Components held at their place from the first moment on.
 struct Hold {
-    std::string name;
-    std::vector<int> particles;
+    std::string name{};
+    std::vector<int> particles{};
     std::array<bool, 3> axes{};
 };
 
@@ -30,20 +30,22 @@ struct Ramp {
 /// One [[load]]. What it does to its particles is one of the kinds; the others stay empty.
 struct Load {
     enum class Kind {
-        force,         ///< value: total force (N), shared by `share`
-        pressure,      ///< value[0]: pressure (Pa) against the nodal areas in `share`; positive pushes into the body
+        force,     ///< value: total force (N), shared by `share`
+        pressure,  ///< value[0]: pressure (Pa) against the nodal areas in `share`; positive pushes into the
+                   ///< body
         displacement,  ///< value: prescribed displacement (m) of the components in `driven`
         velocity       ///< value: prescribed velocity (m/s) of the components in `driven`
     };
-    std::string name;
+    std::string name{};
     Kind kind = Kind::force;
-    std::vector<int> particles;
-    std::vector<Vec3> share;         ///< force: x component is the particle's fraction; pressure: area vector A_i (m^2)
+    std::vector<int> particles{};
+    std::vector<Vec3>
+        share;  ///< force: x component is the particle's fraction; pressure: area vector A_i (m^2)
     std::array<Field, 3> value{};
     std::array<bool, 3> driven{};
-    Ramp ramp;
+    Ramp ramp{};
     bool primary = false;
-    bool no_fail = false;            ///< bonds between two of its particles never break
+    bool no_fail = false;  ///< bonds between two of its particles never break
 
     /// Unit vector along which load and displacement are reported.
     Vec3 direction = Vec3::UnitX();

@@ -16,6 +16,7 @@ namespace hibi {
 struct RunSummary {
     std::string title, scene_hash, scene_file, version;
     int particles = 0, bonds = 0, broken = 0, frames = 0, threads = 0;
+    int dimension = 2;                       ///< components of a position in run.json
     std::int64_t steps = 0;
     double time_step = 0, end_time = 0;
     Events events;
@@ -57,6 +58,15 @@ class RunWriter {
 /// Rewrites DIR/run.json (after drawing, say).
 void write_summary(const std::filesystem::path& folder, const RunSummary& summary);
 
+/// One entry of frames.json.
+struct FrameInfo {
+    std::string file;                    ///< relative to the folder: frames/000000.png
+    double time = 0;                     ///< simulated time (s)
+    std::optional<std::string> event{};  ///< what happens in this frame
+    std::string sha256;                  ///< pixel_hash of the frame
+};
+void write_frames(const std::filesystem::path& folder, const std::vector<FrameInfo>& frames);
+
 struct StateInfo {
     double time = 0;
     std::int64_t step = 0;
@@ -64,7 +74,8 @@ struct StateInfo {
 };
 
 /// What drawing needs of a recorded run. Small parts are read at once, states one by one.
-/// Every error names the file and what is wrong with it (std::runtime_error).
+/// Every error names the file and what is wrong with it (std::runtime_error). A run that was killed can be read as
+/// well: without run.json the summary says so in `stopped` and counts what the other files hold.
 class RunReader {
   public:
     explicit RunReader(std::filesystem::path folder);

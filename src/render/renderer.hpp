@@ -16,7 +16,8 @@ namespace hibi {
 /// Which library makes the OpenGL context. Both give the same pixels.
 enum class GlBackend { osmesa, egl };
 
-/// Where shaders come from: those built into the program, or a folder, so that a look can be tuned without compiling.
+/// Where shaders come from: those built into the program, or a folder, so that a look can be tuned without
+/// compiling.
 struct RendererOptions {
     GlBackend backend = GlBackend::osmesa;
     std::optional<std::filesystem::path> shaders{};
@@ -25,17 +26,17 @@ struct RendererOptions {
 /// One moment, ready to be drawn.
 struct Picture2 {
     Camera2 camera;
-    std::vector<float> x, y;            ///< current positions (m), displacement magnified as the view asks
-    std::vector<float> value;           ///< 0..1 per particle: place in the colour map
-    std::vector<int> intact;            ///< bonds to draw as intact
-    std::vector<int> broken;            ///< bonds to draw as crack faces
-    std::vector<float> freshness;       ///< per broken bond: 1 just broken .. 0 old trace
+    std::vector<float> x, y;       ///< current positions (m), displacement magnified as the view asks
+    std::vector<float> value;      ///< 0..1 per particle: place in the colour map
+    std::vector<int> intact;       ///< bonds to draw as intact
+    std::vector<int> broken;       ///< bonds to draw as crack faces
+    std::vector<float> freshness;  ///< per broken bond: 1 just broken .. 0 old trace
 };
 
-/// Draws particles, intact and broken bonds on the theme's background; not thread-safe, and it must be used on the
-/// thread that made it. Errors: std::runtime_error naming the library or the shader.
+/// Draws particles, intact and broken bonds on the theme's background; not thread-safe, and it must be used
+/// on the thread that made it. Errors: std::runtime_error naming the library or the shader.
 class Renderer {
-  public:
+ public:
     Renderer(const View& view, const Topology& topology, const RendererOptions& options = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
@@ -47,7 +48,7 @@ class Renderer {
     /// e.g. "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6, OSMesa"
     std::string description() const;
 
-  private:
+ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -1,0 +1,47 @@
+#version 330 core
+// A broken bond: a capsule across the bond at its middle, where the crack face is.
+
+uniform vec2 picture;
+uniform float guard;
+uniform float unit;                  // pixels in this picture per pixel in one 1080 high
+uniform isamplerBuffer bonds;        // the two particles of each
+uniform samplerBuffer states;        // freshness 1..0, rest length (pixels)
+uniform samplerBuffer particles;     // centre x, y and half the spacing (pixels), place in the colour map 0..1
+uniform vec3 fresh_colour, old_colour;
+
+flat out vec4 axis;                  // middle and half the straight part of the capsule, as a vector (pixels)
+flat out float half_width;           // (pixels)
+flat out float halo;                 // width of the dark border (pixels)
+flat out vec4 colour;
+
+// Two triangles per bond: the corners -1..1 of vertices 0..5.
+vec2 corner() {
+    int k = int[6](0, 1, 2, 2, 1, 3)[gl_VertexID % 6];
+    return vec2(k & 1, k >> 1) * 2.0 - 1.0;
+}
+
+void main() {
+    ivec2 ends = texelFetch(bonds, gl_VertexID / 6).xy;
+    vec2 state = texelFetch(states, gl_VertexID / 6).xy;
+    vec4 a = texelFetch(particles, ends.x), b = texelFetch(particles, ends.y);
+    vec2 bond = b.xy - a.xy;
+    float spacing = a.z + b.z, stretched = length(bond);
+    vec2 along = vec2(-bond.y, bond.x) / max(stretched, 1e-6), normal = vec2(along.y, -along.x);
+    // Longer bonds cross the same face beside its middle: the longer, the slighter their mark.
+    float rank = 1.0 - 0.6 * smoothstep(1.1, 1.4, state.y / spacing) - 0.2 * smoothstep(1.5, 1.9, state.y / spacing);
+    float width = rank * clamp(0.16 * spacing, max(1.4 * unit, 1.0), max(5.0 * unit, 1.4)) * (1.0 + 0.5 * state.x);
+    half_width = 0.5 * max(width, 1.0);
+    halo = min(1.2 * unit, 0.06 * spacing);
+    float half_length = max(0.5 * spacing * rank - half_width, 0.0);
+    // Faces that have parted keep no mark between them: it would float in empty space.
+    float opening = max(stretched - state.y, 0.0) / spacing;
+    float strength = min(width, 1.0) * rank * (1.0 - smoothstep(0.25, 1.5, opening));
+
+    float reach = half_width + halo + 1.0;
+    vec2 corner = corner();
+    vec2 middle = 0.5 * (a.xy + b.xy);
+    vec2 place = middle + along * corner.x * (half_length + reach) + normal * corner.y * reach;
+    gl_Position = vec4((place + guard) / (picture + 2.0 * guard) * 2.0 - 1.0, 0.0, 1.0);
+    axis = vec4(middle, along * half_length);
+    colour = vec4(mix(old_colour, fresh_colour, state.x), strength);
+}

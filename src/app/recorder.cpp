@@ -1,0 +1,106 @@
+#include "app/recorder.hpp"
+
+#include <limits>
+
+namespace hibi {
+
+namespace {
+
+constexpr int rows_over_max_time = 4000;
+/// A step with breaks gets a row of its own, but not more than this many per regular row.
+constexpr int break_rows = 16;
+constexpr std::size_t ring_size = 8;
+
+}  // namespace
+
+std::vector<std::int64_t> EvenStates::keep(double time, std::int64_t step) {
+    kept_.push_back(step);
+    while (next_ <= time) next_ += interval_;
+    if (kept_.size() <= most_) return {};
+    std::vector<std::int64_t> kept, dropped;
+    for (std::size_t k = 0; k < kept_.size(); ++k) (k % 2 == 0 ? kept : dropped).push_back(kept_[k]);
+    kept_ = std::move(kept);
+    next_ +=
+        interval_;  // most is even, so the newest stayed: the next is due twice the old interval after it
+    interval_ *= 2;
+    return dropped;
+}
+
+Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer)
+    : simulation_(simulation),
+      watch_(watch),
+      writer_(writer),
+      row_interval_(scene.run.max_time / rows_over_max_time),
+      most_(2 * static_cast<std::size_t>(scene.movie.frames())),
+      even_(0, scene.run.max_time / (2 * static_cast<double>(most_)), most_),
+      ring_interval_(scene.run.max_time / (8 * static_cast<double>(most_))) {
+    for (const SlowSpec& slow : scene.movie.slow) {
+        if (slow.around.event && *slow.around.event != EventName::start) continue;
+        const double begin = slow.around.offset - slow.span / 5;
+        spans_.push_back(
+            {begin, begin + slow.span, EvenStates(begin, slow.span / static_cast<double>(most_), most_)});
+    }
+    std::vector<std::string> names;
+    for (const Load& load : simulation.physics().loads) names.push_back(load.name);
+    writer_.history_header(names, scene.dimension);
+    write_row();
+    keep(even_);
+}
+
+void Recorder::look() {
+    const double time = simulation_.time();
+    const Events& events = watch_.events();
+    if (!watch_.just_broken().empty()) writer_.breaks(watch_.just_broken());
+
+    const double since = time - last_row_;
+    if (since >= row_interval_ || (!watch_.just_broken().empty() && since >= row_interval_ / break_rows))
+        write_row();
+
+    if (even_.due(time)) keep(even_);
+    for (Span& span : spans_)
+        if (time <= span.end && span.states.due(time)) keep(span.states);
+
+    if (!events.first_break) {
+        if (time - last_ring_ < ring_interval_) return;
+        last_ring_ = time;
+        if (ring_.size() == ring_size) ring_.pop_front();
+        ring_.push_back(take_snapshot(simulation_));
+        return;
+    }
+    if (!failure_) {
+        for (Snapshot& s : ring_) write_state(std::move(s));
+        ring_.clear();
+        failure_.emplace(time, 2 * simulation_.time_step(), most_);
+        failure_end_ = std::numeric_limits<double>::infinity();
+    }
+    if (events.separation && !separation_kept_) {
+        separation_kept_ = true;
+        failure_end_ = time + (time - events.first_break->time) / 2;
+        write_state(take_snapshot(simulation_));
+    }
+    if (time <= failure_end_ && failure_->due(time)) keep(*failure_);
+}
+
+void Recorder::finish() {
+    if (simulation_.time() > last_row_) write_row();
+    write_state(take_snapshot(simulation_));
+}
+
+void Recorder::write_row() {
+    const HistoryRow row = watch_.row();
+    imbalance_ = row.imbalance;
+    last_row_ = row.time;
+    writer_.row(row);
+}
+
+void Recorder::keep(EvenStates& series) {
+    write_state(take_snapshot(simulation_));
+    for (const std::int64_t step : series.keep(simulation_.time(), simulation_.steps()))
+        if (--wanted_[step] == 0) writer_.drop_state(step);
+}
+
+void Recorder::write_state(Snapshot state) {
+    if (++wanted_[state.step] == 1) writer_.state(std::move(state));
+}
+
+}  // namespace hibi

@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "measure/watch.hpp"
+#include "record/run_folder.hpp"
+#include "scene/scene.hpp"
+
+namespace hibi {
+
+/// States at even intervals when it is not known how long the run will last: once there are more than `most`,
+/// every second one is dropped and the interval doubles. What is left is even, and between most / 2 and most.
+class EvenStates {
+ public:
+    EvenStates(double begin, double interval, std::size_t most)
+        : next_(begin), interval_(interval), most_(most) {}
+
+    bool due(double time) const { return time >= next_; }
+    /// Notes that the state of `step` was kept; returns the steps to be dropped.
+    std::vector<std::int64_t> keep(double time, std::int64_t step);
+
+ private:
+    double next_, interval_;
+    std::size_t most_;
+    std::vector<std::int64_t> kept_;
+};
+
+/// Decides when a row or a state is due and hands it to the writer: states evenly over the run, densely from
+/// first break until well after separation and in slow spans known beforehand, and from a ring in memory for
+/// the moments before first break.
+class Recorder {
+ public:
+    /// References are kept. The first state and row are recorded at once.
+    Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer);
+
+    /// After every step, when the watch has looked.
+    void look();
+    /// The last state and row.
+    void finish();
+    /// Imbalance of the last row [-].
+    double imbalance() const { return imbalance_; }
+
+ private:
+    void write_row();
+    void keep(EvenStates& series);
+    void write_state(Snapshot state);
+
+    const Simulation<2>& simulation_;
+    Watch<2>& watch_;
+    RunWriter& writer_;
+    std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
+    double row_interval_ = 0, last_row_ = 0, imbalance_ = 0;
+    std::size_t most_ = 0;
+    EvenStates even_;
+    std::optional<EvenStates> failure_;  ///< from first break on
+    double failure_end_ = 0;
+    struct Span {
+        double begin, end;
+        EvenStates states;
+    };
+    std::vector<Span> spans_;  ///< slow motion at times known beforehand
+    double ring_interval_ = 0, last_ring_ = 0;
+    std::deque<Snapshot> ring_;  ///< recent states, until first break
+    bool separation_kept_ = false;
+};
+
+}  // namespace hibi

@@ -1,0 +1,228 @@
+#include "app/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "app/progress.hpp"
+#include "app/recorder.hpp"
+#include "base/parallel.hpp"
+#include "base/units.hpp"
+#include "measure/watch.hpp"
+
+namespace hibi {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beyond this the balance is not merely off: the run makes energy from nothing.
+constexpr double runaway_imbalance = 1;
+constexpr double trusted_imbalance = 0.02;
+
+class Stopwatch {
+ public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+ private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+std::string place(const fs::path& file) { return fs::weakly_canonical(file).string(); }
+
+void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
+    if (options.force || !fs::exists(folder / "run.json")) return;
+    const std::string other = read_summary(folder).scene_file;
+    if (other == place(options.scene)) return;
+    throw std::runtime_error(
+        fmt::format("{}: holds the run of another scene, {}; choose another folder with -o, or "
+                    "overwrite it with --force",
+                    folder.string(), other));
+}
+
+/// What the scene ties to a moment: the end of damping, the release of a load.
+void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simulation) {
+    const auto reached = [&](const std::optional<Moment>& moment) {
+        if (!moment) return false;
+        const std::optional<double> time = events.time_of(*moment);
+        return time && simulation.time() >= *time;
+    };
+    if (scene.damping && reached(scene.damping->until)) simulation.stop_damping();
+    for (std::size_t l = 0; l < scene.loads.size(); ++l)
+        if (reached(scene.loads[l].until)) simulation.release(static_cast<int>(l));
+}
+
+bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
+    if (time >= scene.run.max_time) return true;
+    if (!scene.run.until) return false;
+    if (scene.run.until->event == EventName::peak_load && !watch.peak_confirmed()) return false;
+    const std::optional<double> end = watch.events().time_of(*scene.run.until);
+    return end && time >= *end;
+}
+
+/// Moves the simulation to its end. Returns why it stopped early, if it did.
+std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, Watch<2>& watch,
+                                 Recorder& recorder, bool quiet) {
+    Progress progress("solving", "steps", quiet);
+    while (!reached_end(scene, watch, simulation.time())) {
+        simulation.step();
+        watch.look();
+        if (simulation.failure()) return simulation.failure()->message;
+        pull_triggers(scene, watch.events(), simulation);
+        recorder.look();
+        if (recorder.imbalance() > runaway_imbalance && watch.worst_imbalance() > runaway_imbalance)
+            return fmt::format("step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %); {}",
+                               simulation.steps(), simulation.time(), 100 * recorder.imbalance(),
+                               simulation.likely_cause());
+        if (simulation.steps() % 64 == 0)
+            progress.at(simulation.time() / scene.run.max_time, static_cast<double>(simulation.steps()),
+                        fmt::format("t = {}, {} bonds broken", format_si(simulation.time(), "s"),
+                                    simulation.broken()));
+    }
+    return {};
+}
+
+std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary) {
+    std::vector<std::string> list;
+    const Events& events = summary.events;
+    if (scene.run.until && scene.run.until->event && !summary.stopped) {
+        const EventName event = *scene.run.until->event;
+        const bool seen = (event == EventName::first_break && events.first_break) ||
+                          (event == EventName::peak_load && summary.end_time < scene.run.max_time) ||
+                          (event == EventName::separation && events.separation);
+        if (!seen)
+            list.push_back(fmt::format("{} was not reached before max_time = {}", to_string(event),
+                                       format_si(scene.run.max_time, "s")));
+    }
+    if (!summary.trusted)
+        list.push_back(
+            fmt::format("the energy balance is off by {:.2g} %: do not trust this run; a smaller "
+                        "time_step_factor may help",
+                        100 * summary.worst_imbalance));
+    return list;
+}
+
+std::string event_line(const char* name, const std::optional<Event>& event, bool with_place) {
+    if (!event) return fmt::format("{:<16} -\n", name);
+    std::string line =
+        fmt::format("{:<16} t = {:<10} load {:<10} displacement {}", name, format_si(event->time, "s", 4),
+                    format_si(event->load, "N", 4), format_si(event->displacement, "m"));
+    if (with_place) line += fmt::format("  at ({:.4g}, {:.4g}) m", event->position.x(), event->position.y());
+    return line + "\n";
+}
+
+void print_results(const RunSummary& s, const fs::path& folder, bool drawn) {
+    std::string text;
+    text += event_line("first break", s.events.first_break, true);
+    text += event_line("peak load", s.events.peak_load, false);
+    text += event_line("separation", s.events.separation, false);
+    text += fmt::format("{:<16} {} of {}, in {} steps of {}\n", "broken bonds", s.broken, s.bonds, s.steps,
+                        format_si(s.time_step, "s"));
+    text += fmt::format("{:<16} {:.2g} up to first break, {:.2g} to the end: {}\n", "energy imbalance",
+                        s.imbalance_at_first_break, s.worst_imbalance, s.trusted ? "trusted" : "NOT TRUSTED");
+    text += fmt::format("{:<16} solve {:.2f}, draw {:.1f}, all {:.1f}\n", "seconds", s.seconds.at("solve"),
+                        drawn ? s.seconds.at("draw") : 0.0, s.seconds.at("total"));
+    text += fmt::format("{:<16} {}\n", drawn ? "film" : "states",
+                        (folder / (drawn ? "movie.mp4" : "states")).string());
+    fmt::print("{}", text);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+    const Stopwatch total;
+    const Scene scene = read_scene(options.scene, options.overrides);
+    const fs::path folder = options.folder.value_or(fs::path("out") / options.scene.stem());
+    refuse_other_scene(folder, options);
+    Built<2> built = build(scene);
+    const Topology topology = topology_of(scene, built);
+    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
+    Watch<2> watch(simulation);
+
+    RunSummary summary;
+    summary.title = scene.title;
+    summary.scene_hash = scene_hash(scene);
+    summary.scene_file = place(options.scene);
+    summary.version = HIBI_VERSION;
+    summary.particles = simulation.model().particles.count();
+    summary.bonds = simulation.model().bonds.count();
+    summary.threads = threads();
+    summary.time_step = simulation.time_step();
+    summary.stopped = "it is still running, or was killed";
+    RunWriter writer(folder);
+    writer.scene(write_scene(scene));
+    writer.topology(topology);
+    write_summary(folder, summary);
+    summary.seconds["setup"] = total.seconds();
+
+    if (!options.quiet)
+        fmt::print(stderr, "{}: {} particles, {} bonds, time step {}\n", scene.title, summary.particles,
+                   summary.bonds, format_si(summary.time_step, "s"));
+    const Stopwatch solving;
+    Recorder recorder(scene, simulation, watch, writer);
+    summary.stopped = solve(scene, simulation, watch, recorder, options.quiet);
+    recorder.finish();
+    summary.seconds["solve"] = solving.seconds();
+    summary.broken = simulation.broken();
+    summary.steps = simulation.steps();
+    summary.end_time = simulation.time();
+    summary.events = watch.events();
+    summary.worst_imbalance = watch.worst_imbalance();
+    summary.imbalance_at_first_break = watch.imbalance_before_first_break();
+    summary.trusted = !summary.stopped && summary.worst_imbalance <= trusted_imbalance;
+    if (!summary.stopped) summary.warnings = warnings(scene, summary);
+    summary.seconds["total"] = total.seconds();
+    writer.finish(summary);
+    if (summary.stopped) {
+        fmt::print(stderr,
+                   "{}: error: {}\nEverything recorded until then is in {}; draw it with: hibi render {}\n",
+                   options.scene.string(), *summary.stopped, folder.string(), folder.string());
+        return 1;
+    }
+
+    if (options.movie) {
+        DrawOptions draw = options.draw;
+        Progress progress("drawing", "frames", options.quiet);
+        draw.progress = [&](int done, int of) { progress.at(static_cast<double>(done) / of, done); };
+        const DrawResult drawn = draw_run(scene, folder, draw);
+        summary.frames = drawn.frames;
+        summary.seconds["draw"] = drawn.draw_seconds;
+        summary.seconds["encode"] = drawn.encode_seconds;
+        summary.seconds["total"] = total.seconds();
+        write_summary(folder, summary);
+    }
+    for (const std::string& warning : summary.warnings)
+        fmt::print(stderr, "{}: warning: {}\n", options.scene.string(), warning);
+    if (options.json) {
+        std::ifstream json(folder / "run.json");
+        fmt::print("{}", std::string(std::istreambuf_iterator<char>(json), {}));
+    } else {
+        print_results(summary, folder, options.movie);
+    }
+    return summary.trusted ? 0 : 4;
+}
+
+int render_command(const fs::path& folder, const std::optional<fs::path>& scene_file,
+                   const DrawOptions& options, bool quiet) {
+    const Scene scene = read_scene(scene_file.value_or(folder / "scene.toml"));
+    DrawOptions draw = options;
+    DrawResult drawn;
+    {
+        Progress progress("drawing", "frames", quiet);
+        draw.progress = [&](int done, int of) { progress.at(static_cast<double>(done) / of, done); };
+        drawn = draw_run(scene, folder, draw);
+    }
+    RunSummary summary = read_summary(folder);
+    summary.frames = drawn.frames;
+    summary.seconds["draw"] = drawn.draw_seconds;
+    summary.seconds["encode"] = drawn.encode_seconds;
+    write_summary(folder, summary);
+    fmt::print("{}\n", (folder / (options.movie ? "movie.mp4" : "frames")).string());
+    return 0;
+}
+
+}  // namespace hibi

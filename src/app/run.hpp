@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/draw.hpp"
+#include "scene/read.hpp"
+
+namespace hibi {
+
+struct RunOptions {
+    std::filesystem::path scene;
+    std::optional<std::filesystem::path> folder{};  ///< absent: out/<scene name>
+    Overrides overrides{};
+    bool movie = true;   ///< draw at all
+    bool force = false;  ///< overwrite the run of another scene
+    bool quiet = false;  ///< no progress
+    bool json = false;   ///< print run.json instead of the table
+    DrawOptions draw{};
+};
+
+/// Simulates, records, draws and encodes. Returns the exit status: 0 done, 1 the run blew up, 4 its energy
+/// balance cannot be trusted. Throws SceneErrors for a wrong scene and std::runtime_error for the world's
+/// faults.
+int run_command(const RunOptions& options);
+
+/// Pictures and film of a recorded run once more. `scene` absent: as recorded.
+int render_command(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& scene,
+                   const DrawOptions& options, bool quiet);
+
+}  // namespace hibi

@@ -1,0 +1,132 @@
+#include "image/inset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hibi {
+
+namespace {
+
+/// Smallest and largest finite value, zero included.
+std::array<double, 2> range_of(const std::vector<double>& values) {
+    std::array<double, 2> range{0, 0};
+    for (const double v : values)
+        if (std::isfinite(v)) range = {std::min(range[0], v), std::max(range[1], v)};
+    return range;
+}
+
+double magnitude(const std::array<double, 2>& range) { return std::max(-range[0], range[1]); }
+
+}  // namespace
+
+Inset::Inset(const InsetCurve& curve, const PixelRect& rect, const Theme& theme, const Typesetter& type,
+             double text, double unit)
+    : theme_(theme), type_(type), text_(text), unit_(unit), rect_(rect) {
+    const auto x_range = range_of(curve.x), y_range = range_of(curve.y);
+    const Scale x_scale = scale_for(magnitude(x_range), curve.x_unit);
+    const Scale y_scale = scale_for(magnitude(y_range), curve.y_unit);
+    x_title_ = with_unit(curve.x_title, x_scale);
+    y_title_ = with_unit(curve.y_title, y_scale);
+    const auto widened = [](double range, double factor) { return range * factor * 1.04; };
+    x_low_ = widened(x_range[0], x_scale.factor);
+    x_high_ = widened(x_range[1], x_scale.factor);
+    y_low_ = widened(y_range[0], y_scale.factor);
+    y_high_ = widened(y_range[1], y_scale.factor);
+    if (x_high_ <= x_low_) x_high_ = x_low_ + 1;
+    if (y_high_ <= y_low_) y_high_ = y_low_ + 1;
+
+    const double most_broken = curve.broken.empty() ? 0 : range_of(curve.broken)[1];
+    if (most_broken > 0) broken_max_ = fmt::format("{}", most_broken);
+    const TextStyle small{.size = 0.9 * text};
+    const double top = 2.3 * text, bottom = 3.0 * text;
+    y_ticks_ = round_ticks(y_low_, y_high_,
+                           std::max(2, static_cast<int>((rect.height - top - bottom) / (2.6 * text))));
+    double left = 0;
+    for (const double tick : y_ticks_.at)
+        left = std::max(left, type.width(decimal(tick, y_ticks_.decimals), small) + 0.6 * text);
+    const double right =
+        std::max(0.6 * text, broken_max_.empty() ? 0 : type.width(broken_max_, small) + 0.5 * text);
+    axes_ = {rect.x + left, rect.y + top, rect.width - left - right, rect.height - top - bottom};
+    x_ticks_ = round_ticks(x_low_, x_high_, std::max(2, static_cast<int>(axes_.width / (3.0 * text))));
+
+    const int count = static_cast<int>(curve.time.size());
+    for (int i = 0; i < count; ++i) {
+        if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
+        const double px = axes_.x + axes_.width * (curve.x[i] * x_scale.factor - x_low_) / (x_high_ - x_low_);
+        const double share = (curve.y[i] * y_scale.factor - y_low_) / (y_high_ - y_low_);
+        line_.add(curve.time[i], px, axes_.y + axes_.height * (1 - share), i == count - 1);
+        if (most_broken > 0)
+            broken_.add(curve.time[i], px, axes_.y + axes_.height * (1 - curve.broken[i] / most_broken),
+                        i == count - 1);
+    }
+}
+
+void Inset::Line::add(double t, double x, double y, bool last) {
+    if (!points.empty() && !last && std::hypot(x - points.back()[0], y - points.back()[1]) < 0.4) return;
+    time.push_back(t);
+    points.push_back({x, y});
+}
+
+void Inset::Line::draw(cairo_t* cairo, double now, double dot) const {
+    const int upto = static_cast<int>(std::ranges::upper_bound(time, now) - time.begin());
+    if (upto == 0) return;
+    std::array<double, 2> end = points[upto - 1];
+    if (upto < static_cast<int>(points.size())) {  // to the very moment, so that the dot moves evenly
+        const double share = (now - time[upto - 1]) / (time[upto] - time[upto - 1]);
+        for (int c = 0; c < 2; ++c) end[c] += share * (points[upto][c] - end[c]);
+    }
+    for (int i = 0; i < upto; ++i) cairo_line_to(cairo, points[i][0], points[i][1]);
+    cairo_line_to(cairo, end[0], end[1]);
+    cairo_stroke(cairo);
+    if (dot <= 0) return;
+    cairo_arc(cairo, end[0], end[1], dot, 0, 6.283185307179586);
+    cairo_fill(cairo);
+}
+
+void Inset::draw_axes(cairo_t* cairo) const {
+    TextStyle style{.size = text_, .colour = theme_.curve};
+    type_.draw(cairo, y_title_, rect_.x, rect_.y + text_, style);
+    if (!broken_max_.empty()) {
+        style.colour = theme_.curve_second;
+        style.align = Align::right;
+        type_.draw(cairo, "Broken bonds", rect_.x + rect_.width, rect_.y + text_, style);
+        style.size = 0.9 * text_;
+        type_.draw(cairo, broken_max_, rect_.x + rect_.width, axes_.y + 0.33 * style.size, style);
+    }
+    style = {.size = 0.9 * text_, .colour = theme_.faint_text, .align = Align::right};
+    cairo_set_line_width(cairo, 1);
+    for (const double tick : y_ticks_.at) {
+        const double y = axes_.y + axes_.height * (1 - (tick - y_low_) / (y_high_ - y_low_));
+        set_colour(cairo, theme_.grid);
+        stroke_line(cairo, axes_.x, crisp(y), axes_.x + axes_.width, crisp(y));
+        type_.draw(cairo, decimal(tick, y_ticks_.decimals), axes_.x - 0.5 * text_, y + 0.35 * style.size,
+                   style);
+    }
+    style.align = Align::centre;
+    const double foot = axes_.y + axes_.height;
+    for (const double tick : x_ticks_.at) {
+        const double x = axes_.x + axes_.width * (tick - x_low_) / (x_high_ - x_low_);
+        set_colour(cairo, theme_.line);
+        stroke_line(cairo, crisp(x), foot, crisp(x), foot + 0.3 * text_);
+        type_.draw(cairo, decimal(tick, x_ticks_.decimals), x, foot + 1.35 * text_, style);
+    }
+    set_colour(cairo, theme_.line);
+    stroke_line(cairo, crisp(axes_.x), axes_.y, crisp(axes_.x), foot);
+    stroke_line(cairo, crisp(axes_.x), crisp(foot), axes_.x + axes_.width, crisp(foot));
+    style.size = text_;
+    type_.draw(cairo, x_title_, axes_.x + axes_.width / 2, rect_.y + rect_.height - 0.1 * text_, style);
+}
+
+void Inset::draw_lines(cairo_t* cairo, double time) const {
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cairo, std::max(1.0, 1.5 * unit_));
+    set_colour(cairo, theme_.curve_second);
+    broken_.draw(cairo, time, 0);
+    cairo_set_line_width(cairo, std::max(1.2, 2 * unit_));
+    set_colour(cairo, theme_.curve);
+    line_.draw(cairo, time, std::max(2.2, 4 * unit_));
+}
+
+}  // namespace hibi

@@ -1,0 +1,150 @@
+#include "image/png.hpp"
+
+#include <png.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+namespace hibi {
+
+namespace {
+
+// libpng reports errors by a callback that must not return. Throwing through its frames works where C code
+// carries unwind tables, as all of Debian's does on x86-64 and arm64; the guards below free its structures.
+[[noreturn]] void fail(png_structp, png_const_charp message) { throw std::runtime_error(message); }
+void ignore_warning(png_structp, png_const_charp) {}
+
+struct Writer {
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore_warning);
+    png_infop info = png_create_info_struct(png);
+    Writer() = default;
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
+    ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+struct Reader {
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore_warning);
+    png_infop info = png_create_info_struct(png);
+    Reader() = default;
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+void append(png_structp png, png_bytep data, png_size_t size) {
+    auto& bytes = *static_cast<std::vector<unsigned char>*>(png_get_io_ptr(png));
+    bytes.insert(bytes.end(), data, data + size);
+}
+
+struct Source {
+    const std::vector<unsigned char>& bytes;
+    std::size_t at = 0;
+};
+
+void take(png_structp png, png_bytep data, png_size_t size) {
+    Source& source = *static_cast<Source*>(png_get_io_ptr(png));
+    if (source.bytes.size() - source.at < size) throw std::runtime_error("the file ends too early");
+    std::copy_n(source.bytes.begin() + static_cast<std::ptrdiff_t>(source.at), size, data);
+    source.at += size;
+}
+
+void set_text(const Writer& writer, const PngText& text) {
+    std::vector<png_text> chunks;
+    for (const auto& [key, value] : text) {
+        png_text chunk{};
+        const bool ascii =
+            std::ranges::all_of(value, [](char c) { return static_cast<signed char>(c) >= 0; });
+        chunk.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+        chunk.key = const_cast<char*>(key.c_str());  // libpng copies both, and changes neither
+        chunk.text = const_cast<char*>(value.c_str());
+        chunks.push_back(chunk);
+    }
+    png_set_text(writer.png, writer.info, chunks.data(), static_cast<int>(chunks.size()));
+}
+
+Image decode(const std::vector<unsigned char>& bytes, PngText* text) {
+    Reader reader;
+    Source source{bytes};
+    png_set_read_fn(reader.png, &source, take);
+    png_read_info(reader.png, reader.info);
+    Image image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
+                static_cast<int>(png_get_image_height(reader.png, reader.info)));
+    png_set_expand(reader.png);
+    png_set_strip_16(reader.png);
+    png_set_gray_to_rgb(reader.png);
+    png_set_strip_alpha(reader.png);
+    png_set_bgr(reader.png);
+    png_set_filler(reader.png, 0, PNG_FILLER_AFTER);
+    png_set_interlace_handling(reader.png);
+    png_read_update_info(reader.png, reader.info);
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < image.height; ++y) rows.push_back(image.pixel(0, y));
+    png_read_image(reader.png, rows.data());
+    png_read_end(reader.png, reader.info);
+    if (text) {
+        png_textp chunks = nullptr;
+        const int count = static_cast<int>(png_get_text(reader.png, reader.info, &chunks, nullptr));
+        for (int i = 0; i < count; ++i) (*text)[chunks[i].key] = chunks[i].text;
+    }
+    return image;
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode_png(const Image& image, const PngText& text, bool small) {
+    std::vector<unsigned char> bytes;
+    bytes.reserve(image.bgra.size() / 4);
+    Writer writer;
+    png_set_write_fn(writer.png, &bytes, append, nullptr);
+    png_set_IHDR(writer.png, writer.info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (small) {
+        png_set_compression_level(writer.png, 9);
+        png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
+    } else {
+        png_set_compression_level(writer.png, 1);
+        png_set_compression_strategy(writer.png, Z_RLE);
+        png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    }
+    set_text(writer, text);
+    png_write_info(writer.png, writer.info);
+    std::vector<std::uint8_t> row(std::size_t(3) * image.width);
+    for (int y = 0; y < image.height; ++y) {
+        to_rgb(image.pixel(0, y), image.width, row.data());
+        png_write_row(writer.png, row.data());
+    }
+    png_write_end(writer.png, writer.info);
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image, const PngText& text, bool small) {
+    const std::vector<unsigned char> bytes = encode_png(image, text, small);
+    const std::filesystem::path temporary = file.string() + ".tmp";
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) throw std::runtime_error(file.string() + ": cannot write the picture: " + std::strerror(errno));
+    std::filesystem::rename(temporary, file);
+}
+
+Image read_png(const std::filesystem::path& file, PngText* text) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error(file.string() + ": cannot open the picture: " + std::strerror(errno));
+    const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(in), {}};
+    if (bytes.size() < 8 || png_sig_cmp(bytes.data(), 0, 8) != 0)
+        throw std::runtime_error(file.string() + ": not a PNG picture");
+    try {
+        return decode(bytes, text);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(file.string() + ": damaged PNG picture: " + error.what());
+    }
+}
+
+}  // namespace hibi

@@ -1,0 +1,208 @@
+#include "measure/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+
+namespace hibi {
+
+Connection::Connection(const std::vector<int>& from, const std::vector<int>& to, int particles)
+    : from_(particles, 0), to_(particles, 0), asked_(!from.empty() && !to.empty()) {
+    for (const int i : from) from_[i] = 1;
+    for (const int i : to) to_[i] = 1;
+}
+
+bool Connection::holds(const Bonds& bonds, std::span<const int> just_broken) {
+    if (lost_) return false;
+    const bool path_intact =
+        found_ && std::none_of(just_broken.begin(), just_broken.end(), [&](int b) { return on_path_[b]; });
+    if (!path_intact) lost_ = !search(bonds);
+    return !lost_;
+}
+
+/// Breadth first from all held particles.
+bool Connection::search(const Bonds& bonds) {
+    const int n = static_cast<int>(from_.size());
+    std::vector<int> came_by(n, -2), queue;  // -2: not reached, -1: a start, else the bond
+    for (int i = 0; i < n; ++i) {
+        if (!from_[i]) continue;
+        came_by[i] = -1;
+        queue.push_back(i);
+    }
+    on_path_.assign(bonds.count(), 0);
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+        int i = queue[head];
+        if (to_[i]) {
+            for (; came_by[i] >= 0; i = bonds.other(came_by[i], i)) on_path_[came_by[i]] = 1;
+            found_ = true;
+            return true;
+        }
+        for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
+            const int b = bonds.bonds_of[k], j = bonds.other(b, i);
+            if (!bonds.is_intact(b) || came_by[j] != -2) continue;
+            came_by[j] = b;
+            queue.push_back(j);
+        }
+    }
+    return false;
+}
+
+namespace {
+
+constexpr int settling_steps = 100;
+
+int primary_load(const Physics& physics) {
+    for (std::size_t l = 0; l < physics.loads.size(); ++l)
+        if (physics.loads[l].primary) return static_cast<int>(l);
+    return physics.loads.empty() ? -1 : 0;
+}
+
+template <int Dim>
+Connection held_to_loaded(const Simulation<Dim>& simulation) {
+    std::vector<int> held, loaded;
+    for (const Hold& hold : simulation.physics().holds)
+        held.insert(held.end(), hold.particles.begin(), hold.particles.end());
+    if (const int l = primary_load(simulation.physics()); l >= 0)
+        loaded = simulation.physics().loads[l].particles;
+    return {held, loaded, simulation.model().particles.count()};
+}
+
+}  // namespace
+
+template <int Dim>
+Watch<Dim>::Watch(const Simulation<Dim>& simulation)
+    : simulation_(simulation),
+      primary_(primary_load(simulation.physics())),
+      connection_(held_to_loaded(simulation)) {
+    connection_.holds(simulation.model().bonds, {});
+}
+
+template <int Dim>
+void Watch<Dim>::look() {
+    const Model<Dim>& model = simulation_.model();
+    const LoadReading now = primary_ >= 0 ? simulation_.read(primary_) : LoadReading{};
+    events_.end = simulation_.time();
+
+    just_broken_.clear();
+    for (std::size_t k = 0; k < simulation_.just_broken().size(); ++k) {
+        const int b = simulation_.just_broken()[k], i = model.bonds.first[b], j = model.bonds.second[b];
+        const Vec<Dim> middle = (model.particles.position(i) + model.particles.position(j)) / 2;
+        just_broken_.push_back(
+            {simulation_.time(), b, i, j, to_3d<Dim>(middle), simulation_.breaking_strains()[k]});
+    }
+    const auto event = [&](int bond) {
+        Event e{simulation_.time(), now.load, now.displacement, Vec3::Zero()};
+        if (bond >= 0) {
+            const std::vector<Vec<Dim>>& X = model.particles.reference_position;
+            e.position = to_3d<Dim>((X[model.bonds.first[bond]] + X[model.bonds.second[bond]]) / 2);
+        }
+        return e;
+    };
+    if (!just_broken_.empty() && !events_.first_break) events_.first_break = event(just_broken_.front().bond);
+
+    const bool together = connection_.can_be_asked() &&
+                          (events_.separation || connection_.holds(model.bonds, simulation_.just_broken()));
+    if (connection_.can_be_asked() && !together) events_.separation = event(just_broken_.back().bond);
+    if (primary_ >= 0 && (!events_.separation || events_.separation->time == simulation_.time())) {
+        if (!events_.peak_load || now.load > events_.peak_load->load) events_.peak_load = event(-1);
+    }
+    if (events_.peak_load && events_.peak_load->load > 0 && now.load <= 0.8 * events_.peak_load->load)
+        peak_confirmed_ = true;
+}
+
+template <int Dim>
+HistoryRow Watch<Dim>::row() {
+    const Energies e = simulation_.energies();
+    HistoryRow row{.time = simulation_.time(),
+                   .kinetic = e.kinetic,
+                   .elastic = e.elastic,
+                   .contact = e.contact,
+                   .damped = e.damped,
+                   .released = e.released,
+                   .work = e.work,
+                   .broken = simulation_.broken(),
+                   .momentum = to_3d<Dim>(simulation_.momentum())};
+    scale_ = std::max({scale_, std::abs(e.work), e.elastic, e.kinetic});
+    row.imbalance = scale_ > 0 ? std::abs(e.sum() - e.work) / scale_ : 0;
+    // In its first steps any run is off by about 1 / steps^2, the start of the trapezoidal sum over a ramp, of next to
+    // no energy: that says nothing about the run.
+    if (simulation_.steps() >= settling_steps) {
+        worst_ = std::max(worst_, row.imbalance);
+        if (!events_.first_break) worst_before_break_ = worst_;
+    }
+    for (std::size_t l = 0; l < simulation_.physics().loads.size(); ++l) {
+        const LoadReading reading = simulation_.read(static_cast<int>(l));
+        row.loads.push_back(reading.load);
+        row.displacements.push_back(reading.displacement);
+    }
+    if (primary_ >= 0) {
+        row.load = row.loads[primary_];
+        row.displacement = row.displacements[primary_];
+    }
+    return row;
+}
+
+template class Watch<2>;
+
+template <int Dim>
+Snapshot take_snapshot(const Simulation<Dim>& simulation) {
+    const Model<Dim>& model = simulation.model();
+    const Particles<Dim>& particles = model.particles;
+    const Bonds& bonds = model.bonds;
+    const int n = particles.count();
+    Snapshot s;
+    s.time = simulation.time();
+    s.step = simulation.steps();
+    s.displacement.resize(n);
+    s.velocity.resize(n);
+    if (model.spin) s.angle = model.spin->angle;
+    for (int b = 0; b < bonds.count(); ++b) {
+        if (bonds.is_intact(b)) continue;
+        s.broken.push_back(b);
+        s.broken_at.push_back(bonds.broken_at[b]);
+    }
+    s.bond_strain.resize(n);
+    s.damage.resize(n);
+    s.energy.resize(n);
+    s.stress.resize(n);
+    parallel_for(n, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            s.displacement[i] = to_3d<Dim>(particles.displacement[i]);
+            s.velocity[i] = to_3d<Dim>(particles.velocity[i]);
+            double largest = 0;
+            int broken = 0;
+            const int count = bonds.start[i + 1] - bonds.start[i];
+            for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
+                const int b = bonds.bonds_of[k], j = bonds.other(b, i);
+                if (!bonds.is_intact(b)) {
+                    ++broken;
+                    continue;
+                }
+                const double strain =
+                    bond_strain<Dim>(particles.reference_position[j] - particles.reference_position[i],
+                                     particles.displacement[j] - particles.displacement[i]);
+                if (std::abs(strain) > std::abs(largest)) largest = strain;
+            }
+            s.bond_strain[i] = static_cast<float>(largest);
+            s.damage[i] = count > 0 ? static_cast<float>(broken) / static_cast<float>(count) : 0;
+            const LocalState<Dim> local = simulation.local(i);
+            s.energy[i] = static_cast<float>(local.energy);
+            Mat<3> stress = Mat<3>::Zero();
+            stress.template topLeftCorner<Dim, Dim>() = local.stress;
+            if (Dim == 2 && model.assumption == Assumption::plane_strain) {
+                // no strain across the plane: what holds it there is lambda times the dilatation
+                const Material& material = model.materials[particles.material[i]];
+                stress(2, 2) = lame_lambda(material, model.assumption) * local.dilatation;
+            }
+            s.stress[i] = {static_cast<float>(stress(0, 0)), static_cast<float>(stress(1, 1)),
+                           static_cast<float>(stress(2, 2)), static_cast<float>(stress(0, 1)),
+                           static_cast<float>(stress(1, 2)), static_cast<float>(stress(0, 2))};
+        }
+    });
+    return s;
+}
+
+template Snapshot take_snapshot<2>(const Simulation<2>&);
+
+}  // namespace hibi

@@ -1,0 +1,131 @@
+#include "model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hibi {
+
+namespace {
+
+double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Do the closed segments ab and cd meet? Touching counts, to within 1e-9 of the longer one: a notch drawn along
+/// a row of particles must not depend on rounding.
+bool segments_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d) {
+    const Vec<2> ab = b - a, cd = d - c, ac = c - a;
+    const double scale = std::max(ab.norm(), cd.norm());
+    const double tolerance = 1e-9 * scale;
+    const double turn = cross(ab, cd);
+    if (std::abs(turn) > 1e-12 * ab.norm() * cd.norm()) {
+        const double s = cross(ac, cd) / turn, t = cross(ac, ab) / turn;  // a + s ab = c + t cd
+        const double slack_s = tolerance / ab.norm(), slack_t = tolerance / cd.norm();
+        return s >= -slack_s && s <= 1 + slack_s && t >= -slack_t && t <= 1 + slack_t;
+    }
+    if (std::abs(cross(ac, ab)) > tolerance * ab.norm()) return false;  // parallel and apart
+    const double length = ab.squaredNorm();
+    const double s0 = ac.dot(ab) / length, s1 = (d - a).dot(ab) / length;
+    const double slack = tolerance / ab.norm();
+    return std::max(s0, s1) >= -slack && std::min(s0, s1) <= 1 + slack;
+}
+
+bool crosses(const Notch<2>& notch, const Vec<2>& a, const Vec<2>& b) {
+    for (std::size_t k = 1; k < notch.points.size(); ++k)
+        if (segments_meet(a, b, notch.points[k - 1], notch.points[k])) return true;
+    return false;
+}
+
+}  // namespace
+
+template <int Dim>
+void add_body(Model<Dim>& model, Body<Dim> body) {
+    const std::vector<Vec<Dim>> points = fill(body.shape, body.spacing);
+    Particles<Dim>& particles = model.particles;
+    body.begin = particles.count();
+    body.end = body.begin + static_cast<int>(points.size());
+    const double volume = std::pow(body.spacing, Dim) * (Dim == 2 ? model.thickness : 1.0);
+    Particles<Dim>::each_field(particles, [&](const char*, auto& field) {
+        using Value = typename std::remove_reference_t<decltype(field)>::value_type;
+        if constexpr (std::is_arithmetic_v<Value>)
+            field.resize(body.end, Value{});
+        else
+            field.resize(body.end, Value::Zero());
+    });
+    for (int i = body.begin; i < body.end; ++i) {
+        particles.reference_position[i] = points[i - body.begin];
+        particles.volume[i] = volume;
+        particles.mass[i] = model.materials[body.material].density * volume;
+        particles.spacing[i] = body.spacing;
+        particles.material[i] = body.material;
+        particles.body[i] = static_cast<int>(model.bodies.size());
+    }
+    model.bodies.push_back(std::move(body));
+}
+
+template <int Dim>
+std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notches) {
+    const Particles<Dim>& particles = model.particles;
+    const std::vector<Vec<Dim>>& X = particles.reference_position;
+
+    // Bodies joined to each other are searched together, all others alone: they may differ in spacing.
+    std::vector<int> group(model.bodies.size());
+    for (std::size_t b = 0; b < group.size(); ++b) {
+        group[b] = static_cast<int>(b);
+        for (const int other : model.bodies[b].bonded_to) {
+            const int merged = group[other], own = group[b];
+            for (std::size_t k = 0; k <= b; ++k)
+                if (group[k] == own) group[k] = merged;
+        }
+    }
+    const auto joined = [&](int a, int b) {
+        if (a == b) return true;
+        const std::vector<int>& list = model.bodies[std::max(a, b)].bonded_to;
+        return std::find(list.begin(), list.end(), std::min(a, b)) != list.end();
+    };
+
+    std::vector<int> cut(notches.size(), 0);
+    std::vector<std::pair<int, int>> pairs;
+    model.bonds_cut = 0;
+    for (std::size_t g = 0; g < group.size(); ++g) {
+        std::vector<int> members;
+        for (int i = 0; i < particles.count(); ++i)
+            if (group[particles.body[i]] == static_cast<int>(g)) members.push_back(i);
+        if (members.empty()) continue;
+        std::vector<Vec<Dim>> points;
+        points.reserve(members.size());
+        for (const int i : members) points.push_back(X[i]);
+        for (const auto& [a, b] : neighbours(points, model.influence * particles.spacing[members.front()])) {
+            const int i = members[a], j = members[b];
+            if (!joined(particles.body[i], particles.body[j])) continue;
+            bool is_cut = false;
+            for (std::size_t k = 0; k < notches.size(); ++k) {
+                const int only = notches[k].body;
+                if (only >= 0 && only != particles.body[i] && only != particles.body[j]) continue;
+                if (crosses(notches[k], X[i], X[j])) {
+                    ++cut[k];
+                    is_cut = true;
+                }
+            }
+            if (is_cut)
+                ++model.bonds_cut;
+            else
+                pairs.push_back({i, j});
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+
+    Bonds& bonds = model.bonds;
+    bonds = {};
+    for (const auto& [i, j] : pairs) {
+        bonds.first.push_back(i);
+        bonds.second.push_back(j);
+        bonds.rest_length.push_back((X[j] - X[i]).norm());
+    }
+    bonds.broken_at.assign(pairs.size(), Bonds::intact);
+    index_bonds(bonds, particles.count());
+    return cut;
+}
+
+template void add_body<2>(Model<2>&, Body<2>);
+template std::vector<int> connect<2>(Model<2>&, const std::vector<Notch<2>>&);
+
+}  // namespace hibi

@@ -1,0 +1,63 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "model/model.hpp"
+#include "physics/physics.hpp"
+#include "physics/weights.hpp"
+
+namespace hibi {
+
+/// Bond strain (|r| - |r0|) / |r0| without loss of digits; du = u_j - u_i. The same bits from both ends.
+template <int Dim>
+double bond_strain(const Vec<Dim>& r0, const Vec<Dim>& du) {
+    const double rest = r0.norm();
+    return (2 * r0.dot(du) + du.squaredNorm()) / (rest * (rest + (r0 + du).norm()));
+}
+
+/// Bounds of a bond in the form the hot loop compares, (L^2 - L0^2) / L0^2: it breaks above `upper` or below
+/// `lower`.
+struct BreakLimits {
+    std::vector<double> upper, lower;  ///< per bond; infinite where it cannot break
+};
+
+/// What one particle feels, for energies, pictures and files.
+template <int Dim>
+struct LocalState {
+    double energy = 0;      ///< (J)
+    Mat<Dim> stress{};      ///< Cauchy stress of the surviving bonds (Pa), current frame
+    double dilatation = 0;  ///< D_i [-]
+};
+
+/// An elastic law: one discrete energy of the model's displacements (and angles, where it has them) and its
+/// exact forces. Virtual once per step; the loops over the bonds are inside.
+template <int Dim>
+class ElasticLaw {
+ public:
+    virtual ~ElasticLaw() = default;
+    /// Overwrites particles.force, and spin.torque where there is one, with -dU/du (N) and -dU/dtheta (N m).
+    /// Returns whether some bond is beyond its limits.
+    virtual bool forces(Model<Dim>& model) = 0;
+    virtual LocalState<Dim> local(const Model<Dim>& model, int particle) const = 0;
+    /// The bond carries nothing from now on; the survivors keep their weights.
+    virtual void remove(const Bonds& bonds, int bond) = 0;
+    /// Limits to be watched by forces(); none are watched before this is called.
+    virtual void watch(const BreakLimits& limits) = 0;
+
+    /// Sum of the particles' energies (J).
+    double energy(const Model<Dim>& model) const;
+};
+
+/// The law that `elasticity` names, on the reference state of the model; bonds already broken carry nothing.
+/// The thesis variant uses the model's `spin`, which must exist.
+template <int Dim>
+std::unique_ptr<ElasticLaw<Dim>> make_elastic_law(const Model<Dim>& model, Elasticity elasticity);
+template <>
+std::unique_ptr<ElasticLaw<2>> make_elastic_law<2>(const Model<2>& model, Elasticity elasticity);
+
+/// At rest, inertia m l0^2 / 6.
+template <int Dim>
+Spin make_spin(const Model<Dim>& model);
+
+}  // namespace hibi

@@ -1,0 +1,396 @@
+#include "physics/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/parallel.hpp"
+#include "physics/damage.hpp"
+#include "physics/time_step.hpp"
+
+namespace hibi {
+
+namespace {
+
+bool prescribes_motion(const Load& load) {
+    return load.kind == Load::Kind::displacement || load.kind == Load::Kind::velocity;
+}
+
+}  // namespace
+
+template <int Dim>
+Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
+    : model_(std::move(model)), physics_(std::move(physics)) {
+    Particles<Dim>& particles = model_.particles;
+    const int n = particles.count();
+    if (physics_.elasticity == Elasticity::thesis) model_.spin = make_spin(model_);
+    law_ = make_elastic_law<Dim>(model_, physics_.elasticity);
+
+    held_.assign(n, {});
+    for (const Hold& hold : physics_.holds)
+        for (const int i : hold.particles)
+            for (int a = 0; a < Dim; ++a) held_[i][a] = held_[i][a] || hold.axes[a];
+    for (const Load& load : physics_.loads)
+        for (const int i : load.particles)
+            for (int a = 0; a < Dim; ++a) held_[i][a] = held_[i][a] || load.driven[a];
+    inverse_mass_.resize(n);
+    for (int i = 0; i < n; ++i) {
+        for (int a = 0; a < Dim; ++a) {
+            inverse_mass_[i][a] = held_[i][a] ? 0 : 1 / particles.mass[i];
+            if (held_[i][a]) particles.velocity[i][a] = 0;
+        }
+        if (model_.spin)  // as in the thesis, what is held does not turn
+            inverse_inertia_.push_back(inverse_mass_[i].isZero(0) ? 0 : 1 / model_.spin->inertia[i]);
+    }
+
+    const std::vector<Vec<Dim>> velocity = particles.velocity;  // the estimate leaves the model at rest
+    stable_time_step_ = 2 / highest_frequency(model_, *law_);
+    particles.velocity = velocity;
+    const bool can_break = std::any_of(model_.materials.begin(), model_.materials.end(),
+                                       [](const Material& m) { return m.can_break(); });
+    // The energy balance through breaks needs the smaller step.
+    time_step_ = physics_.time_step.value_or(physics_.time_step_factor.value_or(can_break ? 0.5 : 0.8) *
+                                             stable_time_step_);
+    if (!(time_step_ <= stable_time_step_))
+        throw std::runtime_error(
+            fmt::format("run.time_step: {:.3g} s is above the stable {:.3g} s; leave it out to "
+                        "have it chosen",
+                        time_step_, stable_time_step_));
+    if (physics_.damping)
+        damping_rate_ = physics_.damping->rate
+                            ? *physics_.damping->rate
+                            : 2 * *physics_.damping->ratio * first_frequency(model_, held_);
+    if (can_break) {
+        limits_ = break_limits(model_, break_strains(model_, physics_));
+        law_->watch(limits_);
+    }
+
+    // The state at t = 0: prescribed positions and velocities, then the forces there.
+    for (std::size_t l = 0; l < physics_.loads.size(); ++l) {
+        const Load& load = physics_.loads[l];
+        LoadState& state = loads_.emplace_back();
+        if (!prescribes_motion(load)) state.force.assign(load.particles.size(), Vec<Dim>::Zero());
+        for (const int i : load.particles) {
+            for (int a = 0; a < Dim; ++a) {
+                if (!load.driven[a]) continue;
+                Driven& d = driven_.emplace_back(Driven{static_cast<int>(l), i, a});
+                const double value = load.ramp(0) * load.value[a](place(i), 0);
+                (load.kind == Load::Kind::displacement ? d.displacement : d.velocity) = value;
+                particles.displacement[i][a] = d.displacement;
+                particles.velocity[i][a] = d.velocity;
+            }
+        }
+    }
+    update_loads(0);
+    sum_forces();
+    for (int i = 0; i < n; ++i) kinetic_ += particles.mass[i] * particles.velocity[i].squaredNorm() / 2;
+    work_ = kinetic_ + law_->energy(model_);  // what is there at the start was put in
+}
+
+template <int Dim>
+void Simulation<Dim>::step() {
+    just_broken_.clear();
+    breaking_strains_.clear();
+    for (Driven& d : driven_) d.old_force = model_.particles.force[d.particle][d.axis];
+    kick();
+    drift();
+    ++steps_;
+    prescribe_motion();
+    update_loads(time_step_);
+    sum_forces();
+    kick();
+    finish_motion();
+    if (beyond_limits_) judge_and_break();
+    if (!std::isfinite(kinetic_)) report_failure();
+}
+
+/// Half a step of dv/dt = a - c v by the midpoint rule; what damping takes out is then m (c dt / 8) |v +
+/// v_new|^2 to the last digit.
+template <int Dim>
+void Simulation<Dim>::kick() {
+    Particles<Dim>& particles = model_.particles;
+    Spin* spin = model_.spin ? &*model_.spin : nullptr;
+    const double half = time_step_ / 2, g = damping_rate_ * time_step_ / 4;
+    struct Sums {
+        double kinetic = 0, damped = 0;
+        void operator+=(const Sums& other) {
+            kinetic += other.kinetic;
+            damped += other.damped;
+        }
+    };
+    const Sums sums = parallel_sum<Sums>(particles.count(), [&](int begin, int end) {
+        Sums part;
+        for (int i = begin; i < end; ++i) {
+            Vec<Dim>& v = particles.velocity[i];
+            const Vec<Dim> push = half * inverse_mass_[i].cwiseProduct(particles.force[i]);
+            if (g == 0) {
+                v += push;
+            } else {
+                const Vec<Dim> old = v;
+                v = ((1 - g) * v + push) / (1 + g);
+                for (int a = 0; a < Dim; ++a)  // driven components are overwritten later, and are not damped
+                    if (inverse_mass_[i][a] > 0)
+                        part.damped += particles.mass[i] * g / 2 * (old[a] + v[a]) * (old[a] + v[a]);
+            }
+            part.kinetic += particles.mass[i] / 2 * v.squaredNorm();
+            if (spin) {
+                double& w = spin->velocity[i];
+                const double old = w;
+                w = ((1 - g) * w + half * inverse_inertia_[i] * spin->torque[i]) / (1 + g);
+                part.damped += spin->inertia[i] * g / 2 * (old + w) * (old + w);
+                part.kinetic += spin->inertia[i] / 2 * w * w;
+            }
+        }
+        return part;
+    });
+    kinetic_ = sums.kinetic;
+    damped_ += sums.damped;
+}
+
+template <int Dim>
+void Simulation<Dim>::drift() {
+    Particles<Dim>& particles = model_.particles;
+    parallel_for(particles.count(), [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) particles.displacement[i] += time_step_ * particles.velocity[i];
+        if (model_.spin)
+            for (int i = begin; i < end; ++i) model_.spin->angle[i] += time_step_ * model_.spin->velocity[i];
+    });
+}
+
+/// Overwrites what kick and drift did to driven components. Until finish_motion their velocity is the mean
+/// over the step, so that velocity * time_step is everybody's movement.
+template <int Dim>
+void Simulation<Dim>::prescribe_motion() {
+    for (Driven& d : driven_) {
+        const Load& load = physics_.loads[d.load];
+        const double value = load.ramp(time()) * load.value[d.axis](place(d.particle), time());
+        const double before = d.displacement, old_velocity = d.velocity;
+        if (load.kind == Load::Kind::displacement) {
+            d.displacement = value;
+            d.moved = value - before;
+            d.velocity = d.moved / time_step_;
+        } else {
+            d.moved = time_step_ * (old_velocity + value) / 2;
+            d.displacement = before + d.moved;
+            d.velocity = value;
+        }
+        // The reaction: it opposes all other forces, and speeds the particle up.
+        const double m = model_.particles.mass[d.particle];
+        work_ += m * (d.velocity * d.velocity - old_velocity * old_velocity) / 2;
+        model_.particles.displacement[d.particle][d.axis] = d.displacement;
+        model_.particles.velocity[d.particle][d.axis] = d.moved / time_step_;
+    }
+}
+
+template <int Dim>
+void Simulation<Dim>::finish_motion() {
+    Particles<Dim>& particles = model_.particles;
+    for (const Driven& d : driven_) {
+        work_ -= (d.old_force + particles.force[d.particle][d.axis]) / 2 * d.moved;
+        double& v = particles.velocity[d.particle][d.axis];
+        kinetic_ += particles.mass[d.particle] / 2 * (d.velocity * d.velocity - v * v);
+        v = d.velocity;
+    }
+}
+
+/// Applied forces at the current time, and their work over the last `step` seconds by the trapezoidal rule.
+template <int Dim>
+void Simulation<Dim>::update_loads(double step) {
+    for (std::size_t l = 0; l < loads_.size(); ++l) {
+        const Load& load = physics_.loads[l];
+        if (loads_[l].released) continue;
+        const double ramp = load.ramp(time());
+        for (std::size_t k = 0; k < loads_[l].force.size(); ++k) {
+            const int i = load.particles[k];
+            Vec<Dim> force;
+            if (load.kind == Load::Kind::pressure) {
+                force = -ramp * load.value[0](place(i), time()) * load.share[k].template head<Dim>();
+            } else {
+                for (int a = 0; a < Dim; ++a)
+                    force[a] = ramp * load.share[k].x() * load.value[a](place(i), time());
+            }
+            Vec<Dim>& now = loads_[l].force[k];
+            work_ += step / 2 * (now + force).dot(model_.particles.velocity[i]);
+            now = force;
+        }
+    }
+}
+
+template <int Dim>
+void Simulation<Dim>::sum_forces() {
+    Particles<Dim>& particles = model_.particles;
+    beyond_limits_ = law_->forces(model_);
+    for (std::size_t l = 0; l < loads_.size(); ++l)
+        for (std::size_t k = 0; k < loads_[l].force.size(); ++k)
+            particles.force[physics_.loads[l].particles[k]] += loads_[l].force[k];
+    if (!physics_.gravity) return;
+    const Vec<Dim> g = physics_.gravity->acceleration.template head<Dim>();
+    parallel_for(particles.count(), [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) particles.force[i] += particles.mass[i] * g;
+    });
+}
+
+/// All bonds are judged on the same state and then broken, so the result does not depend on their order. What
+/// breaks is released at unchanged positions, after the whole step: the energy balance stays an order of
+/// magnitude better than with a break between drift and kick.
+template <int Dim>
+void Simulation<Dim>::judge_and_break() {
+    const Particles<Dim>& particles = model_.particles;
+    Bonds& bonds = model_.bonds;
+    for (int b = 0; b < bonds.count(); ++b) {
+        if (!bonds.is_intact(b)) continue;
+        const int i = bonds.first[b], j = bonds.second[b];
+        const Vec<Dim> r0 = particles.reference_position[j] - particles.reference_position[i];
+        const Vec<Dim> du = particles.displacement[j] - particles.displacement[i];
+        const double growth = 2 * r0.dot(du) + du.squaredNorm(), square = r0.squaredNorm();
+        if (!(growth > limits_.upper[b] * square || growth < limits_.lower[b] * square)) continue;
+        just_broken_.push_back(b);
+        breaking_strains_.push_back(bond_strain<Dim>(r0, du));
+    }
+    // Only the ends of broken bonds change their energy.
+    std::vector<int> ends;
+    for (const int b : just_broken_) ends.insert(ends.end(), {bonds.first[b], bonds.second[b]});
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    const auto energy = [&] {
+        double sum = 0;
+        for (const int i : ends) sum += law_->local(model_, i).energy;
+        return sum;
+    };
+    const double before = energy();
+    for (const int b : just_broken_) {
+        bonds.broken_at[b] = time();
+        law_->remove(bonds, b);
+    }
+    broken_ += static_cast<int>(just_broken_.size());
+    released_ += before - energy();
+    sum_forces();
+}
+
+template <int Dim>
+void Simulation<Dim>::release(int l) {
+    loads_[l].released = true;
+    Particles<Dim>& particles = model_.particles;
+    for (std::size_t k = 0; k < loads_[l].force.size(); ++k) {
+        particles.force[physics_.loads[l].particles[k]] -= loads_[l].force[k];
+        loads_[l].force[k].setZero();
+    }
+    std::erase_if(driven_, [&](const Driven& d) {
+        if (d.load != l) return false;
+        held_[d.particle][d.axis] = false;
+        inverse_mass_[d.particle][d.axis] = 1 / particles.mass[d.particle];
+        return true;
+    });
+}
+
+template <int Dim>
+Energies Simulation<Dim>::energies() const {
+    Energies e{.kinetic = kinetic_,
+               .elastic = law_->energy(model_),
+               .damped = damped_,
+               .released = released_,
+               .work = work_};
+    if (physics_.gravity) {
+        const Particles<Dim>& particles = model_.particles;
+        const Vec<Dim> g = physics_.gravity->acceleration.template head<Dim>();
+        e.work += parallel_sum<double>(particles.count(), [&](int begin, int end) {
+            double sum = 0;
+            for (int i = begin; i < end; ++i) sum += particles.mass[i] * g.dot(particles.displacement[i]);
+            return sum;
+        });
+    }
+    return e;
+}
+
+template <int Dim>
+Vec<Dim> Simulation<Dim>::momentum() const {
+    struct Sum {
+        Vec<Dim> p = Vec<Dim>::Zero();
+        void operator+=(const Sum& other) { p += other.p; }
+    };
+    return parallel_sum<Sum>(model_.particles.count(),
+                             [&](int begin, int end) {
+                                 Sum part;
+                                 for (int i = begin; i < end; ++i)
+                                     part.p += model_.particles.mass[i] * model_.particles.velocity[i];
+                                 return part;
+                             })
+        .p;
+}
+
+template <int Dim>
+LoadReading Simulation<Dim>::read(int l) const {
+    const Load& load = physics_.loads[l];
+    const Vec<Dim> direction = load.direction.template head<Dim>();
+    LoadReading reading;
+    double weights = 0;
+    for (std::size_t k = 0; k < load.particles.size(); ++k) {
+        const int i = load.particles[k];
+        double weight = 1;
+        if (load.kind == Load::Kind::force) weight = load.share[k].x();
+        if (load.kind == Load::Kind::pressure) weight = load.share[k].template head<Dim>().dot(direction);
+        weights += weight;
+        reading.displacement += weight * model_.particles.displacement[i].dot(direction);
+        if (!loads_[l].force.empty()) reading.load += loads_[l].force[k].dot(direction);
+    }
+    reading.displacement /= weights;
+    for (const Driven& d : driven_)
+        if (d.load == l) reading.load -= model_.particles.force[d.particle][d.axis] * direction[d.axis];
+    return reading;
+}
+
+template <int Dim>
+void Simulation<Dim>::report_failure() {
+    const Particles<Dim>& particles = model_.particles;
+    for (int i = 0; i < particles.count(); ++i) {
+        if (particles.velocity[i].allFinite() && particles.displacement[i].allFinite()) continue;
+        failure_ =
+            Failure{steps_, time(), i,
+                    fmt::format("step {}, t = {:.6g} s: velocity of particle {} (body \"{}\") is no longer "
+                                "finite; {}",
+                                steps_, time(), i, model_.bodies[particles.body[i]].name, likely_cause())};
+        return;
+    }
+    failure_ = Failure{steps_, time(), -1,
+                       fmt::format("step {}, t = {:.6g} s: the kinetic energy is no longer finite; {}",
+                                   steps_, time(), likely_cause())};
+}
+
+template <int Dim>
+std::string Simulation<Dim>::likely_cause() const {
+    if (time_step_ > 0.95 * stable_time_step_)
+        return fmt::format("the time step {:.3g} s is too close to the stable {:.3g} s", time_step_,
+                           stable_time_step_);
+    double largest = 0;
+    const Bonds& bonds = model_.bonds;
+    for (int b = 0; b < bonds.count(); ++b) {
+        if (!bonds.is_intact(b)) continue;
+        const double length =
+            (model_.particles.position(bonds.second[b]) - model_.particles.position(bonds.first[b])).norm();
+        largest = std::max(largest, std::abs(length / bonds.rest_length[b] - 1));
+    }
+    if (!(largest < 0.5))
+        return "intact bonds are stretched or squeezed by more than half their length: give the material a "
+               "break_strain, lower the load, or raise it more slowly";
+    return "the load or the prescribed motion may be far too large for the material";
+}
+
+template <int Dim>
+std::vector<std::string> Simulation<Dim>::stage_names() const {
+    std::vector<std::string> names = {"half kick and drift"};
+    if (!driven_.empty()) names.push_back("prescribed motion");
+    if (std::any_of(loads_.begin(), loads_.end(), [](const LoadState& l) { return !l.force.empty(); }))
+        names.push_back("applied loads");
+    names.push_back(model_.spin ? "bond forces and torques (thesis variant)"
+                                : "bond forces (moment-matched)");
+    if (physics_.gravity) names.push_back("gravity");
+    names.push_back(damping_rate_ > 0 ? "half kick, damped" : "half kick");
+    if (!limits_.upper.empty()) names.push_back("judge and break bonds");
+    return names;
+}
+
+template class Simulation<2>;
+
+}  // namespace hibi

@@ -1,0 +1,126 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "physics/elastic.hpp"
+#include "physics/physics.hpp"
+
+namespace hibi {
+
+/// All at one time, positions and velocities in step (J).
+struct Energies {
+    double kinetic = 0, elastic = 0, contact = 0;
+    double damped = 0;  ///< taken out by damping so far
+    double released =
+        0;  ///< elastic energy of bonds at the moment they broke; a single break may be slightly negative
+    double work =
+        0;  ///< done by loads, prescribed motion and gravity so far, plus the initial kinetic energy
+    double sum() const { return kinetic + elastic + contact + damped + released; }
+};
+
+struct LoadReading {
+    double load = 0;  ///< applied total along Load::direction, or the reaction of driven particles (N)
+    double displacement = 0;  ///< mean over the particles, weighted by their share, along Load::direction (m)
+};
+
+/// A run that cannot go on.
+struct Failure {
+    std::int64_t step = 0;
+    double time = 0;
+    int particle = -1;
+    std::string message;  ///< step, time, particle, likely cause
+};
+
+/// Owns the model and moves it in time by velocity Verlet. A step is the list of stages that the physics asks
+/// for.
+template <int Dim>
+class Simulation {
+ public:
+    /// Throws std::runtime_error where the physics does not fit the model (a damping ratio on a free body) or
+    /// the prescribed time step is not stable.
+    Simulation(Model<Dim> model, Physics physics);
+
+    void step();
+
+    double time() const { return static_cast<double>(steps_) * time_step_; }
+    double time_step() const { return time_step_; }
+    double stable_time_step() const { return stable_time_step_; }  ///< 2 / highest frequency (s)
+    double damping_rate() const { return damping_rate_; }          ///< c (1/s); 0 when undamped
+    std::int64_t steps() const { return steps_; }
+    const Model<Dim>& model() const { return model_; }
+    const Physics& physics() const { return physics_; }
+
+    /// Bonds that broke in the last step, in rising order, and the strain at which each did.
+    std::span<const int> just_broken() const { return just_broken_; }
+    std::span<const double> breaking_strains() const { return breaking_strains_; }
+    int broken() const { return broken_; }
+
+    Energies energies() const;
+    double kinetic_energy() const { return kinetic_; }
+    Vec<Dim> momentum() const;
+    LoadReading read(int load) const;
+    LocalState<Dim> local(int particle) const { return law_->local(model_, particle); }
+    /// Particles held or driven in some direction.
+    const std::vector<std::array<bool, 3>>& held() const { return held_; }
+
+    void stop_damping() { damping_rate_ = 0; }
+    void release(int load);  ///< its force ends, or its particles move freely from now on
+
+    /// Set when a number stopped being finite; the state is that of the failure.
+    const std::optional<Failure>& failure() const { return failure_; }
+    /// Why a run at this state is likely to have gone wrong, for messages.
+    std::string likely_cause() const;
+
+    /// The stages of a step in order, as `check` shows them.
+    std::vector<std::string> stage_names() const;
+
+ private:
+    struct LoadState {
+        bool released = false;
+        std::vector<Vec<Dim>> force;  ///< applied force on its particles now (N)
+    };
+    /// A particle component moved by a load.
+    struct Driven {
+        int load = 0, particle = 0, axis = 0;
+        double displacement = 0, velocity = 0;  ///< now (m), (m/s)
+        double moved = 0, old_force = 0;        ///< in this step (m); total force before it (N)
+    };
+
+    void kick();
+    void drift();
+    void prescribe_motion();
+    void update_loads(double step);
+    void sum_forces();
+    void finish_motion();
+    void judge_and_break();
+    void report_failure();
+    Vec3 place(int particle) const { return to_3d<Dim>(model_.particles.reference_position[particle]); }
+
+    Model<Dim> model_;
+    Physics physics_;
+    std::unique_ptr<ElasticLaw<Dim>> law_;
+    BreakLimits limits_;  ///< at which each bond breaks; empty: nothing can break
+    std::vector<std::array<bool, 3>> held_;
+    std::vector<Vec<Dim>> inverse_mass_;   ///< per component; 0 where held or driven (1/kg)
+    std::vector<double> inverse_inertia_;  ///< thesis variant; 0 where held
+    std::vector<LoadState> loads_;
+    std::vector<Driven> driven_;
+    double stable_time_step_ = 0, time_step_ = 0, damping_rate_ = 0;
+    std::int64_t steps_ = 0;
+    bool beyond_limits_ = false;
+    int broken_ = 0;
+    double kinetic_ = 0, damped_ = 0, released_ = 0, work_ = 0;
+    std::vector<int> just_broken_;
+    std::vector<double> breaking_strains_;
+    std::optional<Failure> failure_;
+};
+
+extern template class Simulation<2>;
+
+}  // namespace hibi

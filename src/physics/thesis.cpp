@@ -1,0 +1,140 @@
+#include <cassert>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "physics/bond_list.hpp"
+#include "physics/elastic.hpp"
+
+namespace hibi {
+
+namespace {
+
+/// The variant of Ando's thesis: plain weights over the bulk number density, each particle with an angle of
+/// its own, bonds turning by the mean angle of their ends. The reference that reports compare against.
+///     U = sum_i { mu sum_j s |r - R_ij r0|^2 / |r0|^2 + lambda V D_i^2 / 2 },  R_ij by (theta_i + theta_j) /
+///     2 D_i = (1/V) sum_j s r . R_ij r0 / |r0|^2 - m_i,  m_i = (1/V) sum_j s over alive bonds
+/// Forces and torques are the exact derivatives. Plane only.
+class ThesisLaw final : public ElasticLaw<2> {
+ public:
+    explicit ThesisLaw(const Model<2>& model) : list_(model, thesis_weights(model)) {
+        assert(model.spin);
+        for (const Material& m : model.materials) {
+            two_mu_.push_back(2 * shear_modulus(m));
+            lambda_.push_back(lame_lambda(m, model.assumption));
+        }
+        dilatation_.resize(model.particles.count());
+    }
+
+    bool forces(Model<2>& model) override {
+        Particles<2>& particles = model.particles;
+        const std::vector<Vec<2>>& u = particles.displacement;
+        Spin& spin = *model.spin;
+        parallel_for(particles.count(), [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) dilatation_[i] = dilatation(particles, spin, i);
+        });
+        std::vector<char> passed((particles.count() + parallel_block - 1) / parallel_block, 0);
+        parallel_for(particles.count(), [&](int begin, int end) {
+            bool beyond = false;
+            for (int i = begin; i < end; ++i) {
+                const double two_mu = two_mu_[particles.material[i]];
+                const double pressure = lambda_[particles.material[i]] * dilatation_[i];
+                Vec<2> sum = Vec<2>::Zero();
+                double moment = 0;
+                for (int k = list_.start[i]; k < list_.start[i + 1]; ++k) {
+                    const int j = list_.neighbour[k], material = particles.material[j];
+                    const Vec<2> r0 = list_.r0[k], du = u[j] - u[i];
+                    const Rotated t = rotated(spin, i, j, r0);
+                    const double spring = list_.own[k] * two_mu + list_.other[k] * two_mu_[material];
+                    const double push =
+                        list_.own[k] * pressure + list_.other[k] * lambda_[material] * dilatation_[j];
+                    const Vec<2> Rr0 = r0 + t.change;
+                    sum += spring * (du - t.change) + push * Rr0;
+                    // -dU/dphi = (spring - push) r . J R r0, and each end takes half of the bond's angle
+                    const Vec<2> r = r0 + du;
+                    moment += (spring - push) * (r.y() * Rr0.x() - r.x() * Rr0.y()) / 2;
+                    if (!list_.upper.empty()) {
+                        const double growth = 2 * r0.dot(du) + du.squaredNorm();
+                        beyond |= growth > list_.upper[k] || growth < list_.lower[k];
+                    }
+                }
+                particles.force[i] = sum;
+                spin.torque[i] = moment;
+            }
+            if (beyond) passed[begin / parallel_block] = 1;
+        });
+        for (const char p : passed)
+            if (p) return true;
+        return false;
+    }
+
+    LocalState<2> local(const Model<2>& model, int i) const override {
+        const Particles<2>& particles = model.particles;
+        const std::vector<Vec<2>>& u = particles.displacement;
+        const int material = particles.material[i];
+        const double mu = two_mu_[material] / 2, lambda = lambda_[material];
+        const double volume = particles.volume[i], D = dilatation(particles, *model.spin, i);
+        LocalState<2> state;
+        Mat<2> strain = Mat<2>::Zero();
+        for (int k = list_.start[i]; k < list_.start[i + 1]; ++k) {
+            const Rotated t = rotated(*model.spin, i, list_.neighbour[k], list_.r0[k]);
+            const Vec<2> stretch = u[list_.neighbour[k]] - u[i] - t.change;
+            state.energy += mu * list_.own[k] * stretch.squaredNorm();
+            strain += list_.own[k] / volume * stretch * (list_.r0[k] + t.change).transpose();
+        }
+        strain = (strain + strain.transpose()).eval() / 2;
+        state.dilatation = D;
+        state.energy += lambda * volume * D * D / 2;
+        state.stress = 2 * mu * strain + lambda * D * Mat<2>::Identity();
+        return state;
+    }
+
+    void remove(const Bonds& bonds, int bond) override { list_.remove(bonds, bond); }
+
+    void watch(const BreakLimits& limits) override { list_.watch(limits); }
+
+ private:
+    struct Rotated {
+        Vec<2> change;  ///< (R_ij - I) r0
+    };
+    static Rotated rotated(const Spin& spin, int i, int j, const Vec<2>& r0) {
+        const double phi = (spin.angle[i] + spin.angle[j]) / 2;
+        const double s = std::sin(phi), half = std::sin(phi / 2), c1 = -2 * half * half;
+        return {{c1 * r0.x() - s * r0.y(), s * r0.x() + c1 * r0.y()}};
+    }
+
+    /// sum_j s (r . R r0 - |r0|^2) / |r0|^2 / V, each term without cancellation:
+    /// r . R r0 - |r0|^2 = du . R r0 + r0 . (R - I) r0
+    double dilatation(const Particles<2>& particles, const Spin& spin, int i) const {
+        const std::vector<Vec<2>>& u = particles.displacement;
+        double sum = 0;
+        for (int k = list_.start[i]; k < list_.start[i + 1]; ++k) {
+            const int j = list_.neighbour[k];
+            const Vec<2> r0 = list_.r0[k], change = rotated(spin, i, j, r0).change;
+            sum += list_.own[k] * ((u[j] - u[i]).dot(r0 + change) + r0.dot(change));
+        }
+        return sum / particles.volume[i];
+    }
+
+    BondList<2> list_;
+    std::vector<double> two_mu_, lambda_;  ///< per material (Pa)
+    std::vector<double> dilatation_;
+};
+
+}  // namespace
+
+std::unique_ptr<ElasticLaw<2>> make_thesis_law(const Model<2>& model) {
+    return std::make_unique<ThesisLaw>(model);
+}
+
+template <int Dim>
+Spin make_spin(const Model<Dim>& model) {
+    const Particles<Dim>& particles = model.particles;
+    const std::vector<double> zero(particles.count(), 0.0);
+    Spin spin{zero, zero, zero, zero};
+    for (int i = 0; i < particles.count(); ++i)
+        spin.inertia[i] = particles.mass[i] * particles.spacing[i] * particles.spacing[i] / 6;
+    return spin;
+}
+template Spin make_spin<2>(const Model<2>&);
+
+}  // namespace hibi

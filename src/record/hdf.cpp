@@ -1,0 +1,170 @@
+#include "record/hdf.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace hibi {
+
+namespace {
+
+/// Numbers in a chunk, about: large enough to compress well, small enough for HDF5's cache of 1 MB.
+constexpr std::size_t chunk_numbers = 1 << 16;
+/// Below this many numbers the index of the chunks is larger than what compression saves.
+constexpr std::size_t chunk_minimum = 512;
+
+/// HDF5's innermost reason for the last failure of this thread.
+std::string last_error() {
+    std::string reason;
+    const auto first = [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
+        auto& its_text = *static_cast<std::string*>(text);
+        if (its_text.empty()) its_text = error->desc;
+        return 0;
+    };
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first, &reason);
+    return reason;
+}
+
+/// Without this HDF5 prints its stack of errors to standard error; the setting belongs to the thread.
+void keep_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+HdfHandle properties(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
+
+}  // namespace
+
+void HdfFile::fail(const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}: {}", file_.string(), what));
+}
+
+void HdfFile::check(bool good, const std::string& operation) const {
+    if (good) return;
+    const std::string reason = last_error();
+    fail(fmt::format("cannot {}{}", operation, reason.empty() ? "" : " (" + reason + ")"));
+}
+
+HdfFile HdfFile::create(const std::filesystem::path& file) {
+    keep_quiet();
+    HdfFile made(file, {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose});
+    made.check(made.handle_.valid(), "create the file");
+    return made;
+}
+
+HdfFile HdfFile::open(const std::filesystem::path& file) {
+    keep_quiet();
+    HdfFile opened(file, {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose});
+    opened.check(opened.handle_.valid(), "open the file, it may be damaged or incomplete");
+    return opened;
+}
+
+void HdfFile::group(const std::string& name) {
+    const HdfHandle made(H5Gcreate2(handle_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    check(made.valid(), "create group " + name);
+}
+
+void HdfFile::write(const std::string& name, hid_t type, std::size_t width, std::size_t rows,
+                    const void* data) {
+    const int rank = width == 1 ? 1 : 2;
+    const std::array<hsize_t, 2> size = {rows, width};
+    const HdfHandle layout = properties(H5P_DATASET_CREATE);
+    bool good = H5Pset_obj_track_times(layout, false) >= 0;
+    if (rows * width >= chunk_minimum) {
+        const std::array<hsize_t, 2> chunk = {std::clamp<hsize_t>(chunk_numbers / width, 1, rows), width};
+        // The last chunk reaches beyond the data; filled on allocation, its rest is zero instead of stray
+        // memory.
+        good = good && H5Pset_chunk(layout, rank, chunk.data()) >= 0 &&
+               H5Pset_fill_time(layout, H5D_FILL_TIME_ALLOC) >= 0 && H5Pset_shuffle(layout) >= 0 &&
+               H5Pset_deflate(layout, 1) >= 0;
+    }
+    const HdfHandle space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose);
+    HdfHandle dataset(H5Dcreate2(handle_, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
+                      H5Dclose);
+    good = good && dataset.valid();
+    if (rows > 0) good = good && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+    check(good, "write " + name);
+    check(dataset.close(), "write " + name);
+}
+
+void HdfFile::write_attribute(const std::string& object, const std::string& name, hid_t type,
+                              std::size_t count, const void* data) {
+    const hsize_t size = count;
+    const HdfHandle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const HdfHandle made(H5Acreate_by_name(handle_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                           H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+    check(made.valid() && H5Awrite(made, type, data) >= 0, fmt::format("write {}:{}", object, name));
+}
+
+void HdfFile::attribute(const std::string& object, const std::string& name, const std::string& text) {
+    const bool ascii = std::ranges::all_of(text, [](unsigned char c) { return c < 128; });
+    const HdfHandle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    const std::size_t size = std::max<std::size_t>(1, text.size());  // HDF5 knows no string of length 0
+    H5Tset_size(type, size);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    H5Tset_cset(type, ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8);
+    const HdfHandle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const HdfHandle made(H5Acreate_by_name(handle_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                           H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+    check(made.valid() && H5Awrite(made, type, text.c_str()) >= 0, fmt::format("write {}:{}", object, name));
+}
+
+void HdfFile::link(const std::string& name, const std::string& file, const std::string& target) {
+    check(H5Lcreate_external(file.c_str(), target.c_str(), handle_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >=
+              0,
+          "link " + name);
+}
+
+void HdfFile::close() { check(handle_.close(), "finish the file"); }
+
+bool HdfFile::has(const std::string& name) const { return H5Lexists(handle_, name.c_str(), H5P_DEFAULT) > 0; }
+
+HdfHandle HdfFile::open_dataset(const std::string& name) const {
+    HdfHandle dataset(H5Dopen2(handle_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    check(dataset.valid(), "find " + name);
+    return dataset;
+}
+
+std::size_t HdfFile::check_rows(hid_t dataset, const std::string& name, std::size_t width,
+                                std::int64_t rows) const {
+    const HdfHandle space(H5Dget_space(dataset), H5Sclose);
+    std::array<hsize_t, 2> size = {0, 1};
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (rank < 1 || rank > 2) fail(name + " is no table");
+    H5Sget_simple_extent_dims(space, size.data(), nullptr);
+    if (size[1] != width || (rows >= 0 && size[0] != static_cast<hsize_t>(rows)))
+        fail(fmt::format("{} holds {} x {} numbers, expected {} x {}", name, size[0], size[1],
+                         rows >= 0 ? std::to_string(rows) : "any number of", width));
+    return size[0];
+}
+
+void HdfFile::read_dataset(hid_t dataset, const std::string& name, hid_t type, void* data) const {
+    check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "read " + name);
+}
+
+HdfHandle HdfFile::open_attribute(const std::string& object, const std::string& name) const {
+    HdfHandle found(H5Aopen_by_name(handle_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
+    check(found.valid(), fmt::format("find {}:{}", object, name));
+    return found;
+}
+
+void HdfFile::read_attribute(const std::string& object, const std::string& name, hid_t type,
+                             std::size_t count, void* data) const {
+    const HdfHandle found = open_attribute(object, name);
+    const HdfHandle space(H5Aget_space(found), H5Sclose);
+    check(H5Sget_simple_extent_npoints(space) == static_cast<hssize_t>(count) &&
+              H5Aread(found, type, data) >= 0,
+          fmt::format("read {}:{}", object, name));
+}
+
+std::string HdfFile::text_attribute(const std::string& object, const std::string& name) const {
+    const HdfHandle found = open_attribute(object, name);
+    const HdfHandle type(H5Aget_type(found), H5Tclose);
+    std::string text(H5Tget_size(type), '\0');
+    check(H5Tis_variable_str(type) == 0 && H5Aread(found, type, text.data()) >= 0,
+          fmt::format("read {}:{}", object, name));
+    return text.c_str();  // without the padding
+}
+
+}  // namespace hibi

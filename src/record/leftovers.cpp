@@ -1,0 +1,56 @@
+#include "record/leftovers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hibi {
+
+namespace {
+
+/// Everything a run writes beside its states and frames.
+constexpr const char* single_files[] = {"movie.mp4",         "poster.png",  "strip.png",  "cracks.png",
+                                        "history.csv",       "breaks.csv",  "scene.toml", "run.json",
+                                        "states.hdf.series", "frames.json", "report.html"};
+
+void remove_one(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::remove(file, error);
+    if (error)
+        throw std::runtime_error(
+            fmt::format("{}: cannot remove what an earlier run left: {}", file.string(), error.message()));
+}
+
+/// 000000.hdf, 000000.hdf.tmp
+bool is_numbered(const std::string& name, const std::string& extension) {
+    const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    const std::string rest = name.substr(digits);
+    return digits > 0 && (rest == extension || rest == extension + ".tmp");
+}
+
+void remove_numbered(const std::filesystem::path& folder, const std::string& extension) {
+    if (!std::filesystem::is_directory(folder)) return;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (is_numbered(entry.path().filename().string(), extension)) files.push_back(entry.path());
+    std::ranges::for_each(files, remove_one);
+    if (std::filesystem::is_empty(folder)) remove_one(folder);
+}
+
+}  // namespace
+
+void remove_leftovers(const std::filesystem::path& folder) {
+    for (const char* name : single_files) {
+        remove_one(folder / name);
+        remove_one(folder / (std::string(name) + ".tmp"));
+    }
+    remove_one(folder / "states" / "topology.hdf");
+    remove_one(folder / "states" / "topology.hdf.tmp");
+    remove_numbered(folder / "states", ".hdf");
+    remove_numbered(folder / "frames", ".png");
+}
+
+}  // namespace hibi

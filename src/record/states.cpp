@@ -1,0 +1,143 @@
+#include "record/states.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "record/files.hpp"
+#include "record/hdf.hpp"
+
+namespace hibi {
+
+namespace {
+
+constexpr const char* point_data = "/VTKHDF/PointData/";
+constexpr const char* topology_file = "topology.hdf";
+
+std::vector<Vec3> positions(const Topology& topology, const Snapshot& snapshot) {
+    std::vector<Vec3> x(snapshot.count());
+    for (int i = 0; i < snapshot.count(); ++i)
+        x[i] = topology.reference_position[i] + snapshot.displacement[i];
+    return x;
+}
+
+void write_grid(HdfFile& file, const Topology& topology, const Snapshot& snapshot,
+                const std::vector<Vec3>& position) {
+    const auto bonds = static_cast<std::int64_t>(topology.first.size());
+    file.group("/VTKHDF");
+    file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+    file.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
+    file.write("/VTKHDF/NumberOfPoints", std::vector<std::int64_t>{snapshot.count()});
+    file.write("/VTKHDF/NumberOfCells", std::vector<std::int64_t>{bonds});
+    file.write("/VTKHDF/NumberOfConnectivityIds", std::vector<std::int64_t>{2 * bonds});
+    for (const char* name : {"/VTKHDF/Connectivity", "/VTKHDF/Offsets", "/VTKHDF/Types"})
+        file.link(name, topology_file, name);
+    file.write("/VTKHDF/Points", position);
+
+    std::vector<std::uint8_t> broken(bonds, 0);
+    for (const int bond : snapshot.broken) broken[bond] = 1;
+    file.group("/VTKHDF/CellData");
+    file.write("/VTKHDF/CellData/broken", broken);
+}
+
+/// Walks the arrays of a snapshot that have an entry per particle, with the names ParaView shows.
+template <class Some, class Visit>
+void each_point_array(Some& snapshot, Visit&& visit) {
+    visit("displacement", snapshot.displacement);
+    visit("velocity", snapshot.velocity);
+    visit("bond_strain", snapshot.bond_strain);
+    visit("damage", snapshot.damage);
+    visit("energy", snapshot.energy);
+    visit("stress", snapshot.stress);
+}
+
+void write_extent(HdfFile& file, const Topology& topology, const Snapshot& snapshot,
+                  const std::vector<Vec3>& position) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vec3 low = Vec3::Constant(infinity), high = -low;
+    for (const Vec3& x : position) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    file.attribute("/Hibi", "low", std::vector<Vec3>{low});
+    file.attribute("/Hibi", "high", std::vector<Vec3>{high});
+    file.group("/Hibi/range");
+    for (const std::string& name : scalar_field_names()) {
+        std::array<float, 2> range = {std::numeric_limits<float>::infinity(),
+                                      -std::numeric_limits<float>::infinity()};
+        for (const float value : scalar_field(topology, snapshot, name))
+            range = {std::min(range[0], value), std::max(range[1], value)};
+        file.attribute("/Hibi/range", name, std::vector<std::array<float, 2>>{range});
+    }
+}
+
+}  // namespace
+
+std::filesystem::path state_file(const std::filesystem::path& states, std::int64_t step) {
+    return states / fmt::format("{:06}.hdf", step);
+}
+
+void write_state(const std::filesystem::path& states, const Topology& topology, const Snapshot& snapshot) {
+    assert(topology.reference_position.size() == snapshot.displacement.size());
+    const std::filesystem::path path = state_file(states, snapshot.step);
+    const std::vector<Vec3> position = positions(topology, snapshot);
+    HdfFile file = HdfFile::create(part_of(path));
+    write_grid(file, topology, snapshot, position);
+    file.group("/VTKHDF/PointData");
+    each_point_array(snapshot, [&](const char* name, const auto& data) {
+        file.write(point_data + std::string(name), data);
+    });
+    if (!snapshot.angle.empty()) file.write(point_data + std::string("angle"), snapshot.angle);
+    file.link(point_data + std::string("body"), topology_file, "/Hibi/body");
+    file.link(point_data + std::string("spacing"), topology_file, "/Hibi/spacing");
+
+    file.group("/Hibi");
+    file.attribute("/Hibi", "time", std::vector<double>{snapshot.time});
+    file.attribute("/Hibi", "step", std::vector<std::int64_t>{snapshot.step});
+    file.write("/Hibi/broken", snapshot.broken);
+    file.write("/Hibi/broken_at", snapshot.broken_at);
+    write_extent(file, topology, snapshot, position);
+    file.close();
+    rename_part(path);
+}
+
+Snapshot read_state(const std::filesystem::path& path, const Topology& topology) {
+    const HdfFile file = HdfFile::open(path);
+    const auto particles = static_cast<std::int64_t>(topology.reference_position.size());
+    const auto bonds = static_cast<int>(topology.first.size());
+    Snapshot s;
+    s.time = file.attribute<double>("/Hibi", "time", 1).front();
+    s.step = file.attribute<std::int64_t>("/Hibi", "step", 1).front();
+    each_point_array(s, [&](const char* name, auto& data) {
+        using Entry = typename std::decay_t<decltype(data)>::value_type;
+        data = file.read<Entry>(point_data + std::string(name), particles);
+    });
+    const std::string angle = point_data + std::string("angle");
+    if (file.has(angle)) s.angle = file.read<double>(angle, particles);
+    s.broken = file.read<int>("/Hibi/broken");
+    s.broken_at = file.read<double>("/Hibi/broken_at", static_cast<std::int64_t>(s.broken.size()));
+    for (const int bond : s.broken)
+        if (bond < 0 || bond >= bonds)
+            file.fail(fmt::format("/Hibi/broken names bond {}, but the run has {} bonds", bond, bonds));
+    return s;
+}
+
+StateInfo read_state_info(const std::filesystem::path& path) {
+    const HdfFile file = HdfFile::open(path);
+    return {file.attribute<double>("/Hibi", "time", 1).front(),
+            file.attribute<std::int64_t>("/Hibi", "step", 1).front(), path};
+}
+
+RunReader::Extent read_extent(const std::filesystem::path& path) {
+    const HdfFile file = HdfFile::open(path);
+    RunReader::Extent extent;
+    extent.low = file.attribute<Vec3>("/Hibi", "low", 1).front();
+    extent.high = file.attribute<Vec3>("/Hibi", "high", 1).front();
+    for (const std::string& name : scalar_field_names())
+        extent.range[name] = file.attribute<std::array<float, 2>>("/Hibi/range", name, 1).front();
+    return extent;
+}
+
+}  // namespace hibi

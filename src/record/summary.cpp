@@ -1,0 +1,141 @@
+#include "record/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "record/files.hpp"
+
+namespace hibi {
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // keeps the order in which a reader looks for things
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json position_json(const Vec3& position, int dimension) {
+    return std::vector<double>(position.data(), position.data() + dimension);
+}
+
+Json event_json(const std::optional<Event>& event, int dimension) {
+    if (!event) return nullptr;
+    return {{"time", event->time},
+            {"load", event->load},
+            {"displacement", event->displacement},
+            {"position", position_json(event->position, dimension)}};
+}
+
+/// JSON has no word for a number that is not finite; it is written as null.
+double number(const Json& json) {
+    return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+std::optional<Event> event_from_json(const Json& json) {
+    if (json.is_null()) return std::nullopt;
+    Event event{number(json.at("time")), number(json.at("load")), number(json.at("displacement"))};
+    const auto position = json.at("position").get<std::vector<double>>();
+    for (std::size_t a = 0; a < std::min<std::size_t>(3, position.size()); ++a)
+        event.position[static_cast<int>(a)] = position[a];
+    return event;
+}
+
+Json seconds_json(const std::map<std::string, double>& seconds) {
+    Json json;
+    for (const char* part : {"setup", "solve", "draw", "encode", "total"}) json[part] = 0.0;  // always there
+    for (const auto& [part, value] : seconds) json[part] = value;
+    return json;
+}
+
+Json to_json(const RunSummary& s) {
+    return {{"scene", {{"title", s.title}, {"hash", s.scene_hash}, {"file", s.scene_file}}},
+            {"version", s.version},
+            {"counts",
+             {{"particles", s.particles},
+              {"bonds", s.bonds},
+              {"broken", s.broken},
+              {"steps", s.steps},
+              {"frames", s.frames}}},
+            {"dimension", s.dimension},
+            {"time_step", s.time_step},
+            {"end_time", s.end_time},
+            {"events",
+             {{"first_break", event_json(s.events.first_break, s.dimension)},
+              {"peak_load", event_json(s.events.peak_load, s.dimension)},
+              {"separation", event_json(s.events.separation, s.dimension)},
+              {"end", s.events.end}}},
+            {"energy",
+             {{"worst_imbalance", s.worst_imbalance},
+              {"imbalance_at_first_break", s.imbalance_at_first_break},
+              {"trusted", s.trusted}}},
+            {"seconds", seconds_json(s.seconds)},
+            {"threads", s.threads},
+            {"stopped", or_null(s.stopped)},
+            {"warnings", s.warnings}};
+}
+
+RunSummary from_json(const Json& json) {
+    RunSummary s;
+    json.at("scene").at("title").get_to(s.title);
+    json.at("scene").at("hash").get_to(s.scene_hash);
+    json.at("scene").at("file").get_to(s.scene_file);
+    json.at("version").get_to(s.version);
+    const Json& counts = json.at("counts");
+    counts.at("particles").get_to(s.particles);
+    counts.at("bonds").get_to(s.bonds);
+    counts.at("broken").get_to(s.broken);
+    counts.at("steps").get_to(s.steps);
+    counts.at("frames").get_to(s.frames);
+    json.at("dimension").get_to(s.dimension);
+    json.at("time_step").get_to(s.time_step);
+    json.at("end_time").get_to(s.end_time);
+    const Json& events = json.at("events");
+    s.events.first_break = event_from_json(events.at("first_break"));
+    s.events.peak_load = event_from_json(events.at("peak_load"));
+    s.events.separation = event_from_json(events.at("separation"));
+    events.at("end").get_to(s.events.end);
+    const Json& energy = json.at("energy");
+    s.worst_imbalance = number(energy.at("worst_imbalance"));
+    s.imbalance_at_first_break = number(energy.at("imbalance_at_first_break"));
+    energy.at("trusted").get_to(s.trusted);
+    json.at("seconds").get_to(s.seconds);
+    json.at("threads").get_to(s.threads);
+    if (const Json& stopped = json.at("stopped"); !stopped.is_null()) s.stopped = stopped.get<std::string>();
+    json.at("warnings").get_to(s.warnings);
+    return s;
+}
+
+}  // namespace
+
+void write_summary(const std::filesystem::path& folder, const RunSummary& summary) {
+    write_file(folder / "run.json",
+               to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+RunSummary read_summary(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "run.json";
+    const std::string text = read_file(file);
+    try {
+        return from_json(Json::parse(text));
+    } catch (const Json::exception& error) {
+        throw std::runtime_error(
+            fmt::format("{}: not the summary of a run: {}", file.string(), error.what()));
+    }
+}
+
+void write_frames(const std::filesystem::path& folder, const std::vector<FrameInfo>& frames) {
+    Json list = Json::array();
+    for (const FrameInfo& frame : frames)
+        list.push_back({{"file", frame.file},
+                        {"time", frame.time},
+                        {"event", or_null(frame.event)},
+                        {"sha256", frame.sha256}});
+    write_file(folder / "frames.json", list.dump(1) + "\n");
+}
+
+}  // namespace hibi

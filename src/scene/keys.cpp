@@ -1,0 +1,194 @@
+#include "scene/keys.hpp"
+
+#include <stdexcept>
+
+#include "image/theme.hpp"
+#include "image/view.hpp"
+#include "measure/snapshot.hpp"
+
+namespace hibi {
+
+const Key* KeyBlock::find(const std::string& key) const {
+    for (const Key& k : keys)
+        if (k.name == key) return &k;
+    return nullptr;
+}
+
+std::vector<std::string> KeyBlock::key_names() const {
+    std::vector<std::string> names;
+    for (const Key& key : keys) names.push_back(key.name);
+    return names;
+}
+
+const KeyBlock& scene_block(const std::string& name) {
+    for (const KeyBlock& block : scene_blocks())
+        if (block.name == name) return block;
+    throw std::out_of_range("no block " + name);
+}
+
+// One key per line as far as it goes: this is read as a table.
+// clang-format off
+const std::vector<KeyBlock>& scene_blocks() {
+    using enum KeyKind;
+    using Form = KeyBlock::Form;
+    static const std::vector<KeyBlock> blocks{
+        {"", "the top of the file", Form::single, "What the experiment is.", {
+            {"version", integer, "", "1", "version of the scene format", "1"},
+            {"title", text, "", "the file's name", "shown on every frame; one line", "\"Bending failure\""},
+            {"about", text, "", "empty", "what it shows, and where it is from", "\"Figure 7 of ...\""},
+        }},
+        {"model", "[model]", Form::single, "The kind of model.", {
+            {"dimension", integer, "", "2", "2; three dimensions are not available yet", "2"},
+            {"assumption", choice, "", "plane stress", "what happens across the plane", "\"plane strain\"",
+             {"plane stress", "plane strain"}},
+            {"thickness", quantity, "m", "1 m", "of the body, across the plane; forces are those of a body this thick",
+             "\"0.2 m\""},
+            {"influence", quantity, "", "2.1", "radius within which particles are bonded, in spacings; above sqrt 2",
+             "2.1"},
+            {"elasticity", choice, "", "moment-matched",
+             "moment-matched: weights corrected at surfaces, rotation from the deformation; thesis: plain weights and an "
+             "independent angle per particle, as in the first MPS papers", "\"thesis\"", {"moment-matched", "thesis"}},
+        }},
+        {"material", "[material.NAME]", Form::named, "A material, by name.", {
+            {"density", quantity, "kg/m^3", "required", "mass per volume", "\"2300 kg/m^3\""},
+            {"youngs_modulus", quantity, "Pa", "required", "E", "\"210 MPa\""},
+            {"poissons_ratio", quantity, "", "required", "nu, above -1 and below 0.5", "0.3"},
+            {"break_strain", quantity, "", "", "a bond breaks when its strain exceeds this; absent: it never breaks",
+             "0.1"},
+            {"fracture_energy", quantity, "J/m^2", "",
+             "energy that a unit of crack area costs, in place of break_strain: for bodies with notches", "\"100 J/m^2\""},
+            {"tension_only", flag, "", "false", "shortened bonds never break", "true"},
+            {"weibull", table, "weibull", "", "random strength: each bond has a limit of its own",
+             "{ shape = 12, seed = 7 }"},
+        }},
+        {"weibull", "weibull", Form::inner, "Weibull distribution of the bonds' limits.", {
+            {"shape", quantity, "", "required", "the larger, the less scatter", "12"},
+            {"seed", integer, "", "1", "another number, another sample", "7"},
+        }},
+        {"body", "[[body]]", Form::list, "A body, of exactly one shape.", {
+            {"name", text, "", "body1, body2, ...", "for messages and for `body = ` elsewhere", "\"plate\""},
+            {"material", text, "", "required", "a name of [material]", "\"concrete\""},
+            {"box", points, "m", "", "two corners; each side holds a whole number of spacings",
+             "[[\"0 m\", \"0 m\"], [\"40 m\", \"20 m\"]]"},
+            {"disc", table, "disc", "", "a full circle", "{ centre = [\"0 m\", \"0 m\"], radius = \"1 m\" }"},
+            {"ring", table, "ring", "", "a circle with a hole",
+             "{ centre = [\"0 m\", \"0 m\"], inner = \"0.8 m\", outer = \"1 m\" }"},
+            {"polygon", points, "m", "", "corners, one after the other; no side crosses another",
+             "[[\"0 m\", \"0 m\"], [\"4 m\", \"0 m\"], [\"0 m\", \"3 m\"]]"},
+            {"difference", tables, "shape", "", "the first shape less all the others",
+             "[{ box = [[\"0 m\", \"0 m\"], [\"4 m\", \"4 m\"]] }, { disc = { centre = [\"2 m\", \"2 m\"], radius = \"1 m\" } }]"},
+            {"spacing", quantity, "m", "required", "distance of neighbouring particles", "\"1 m\""},
+            {"bonded_to", names, "", "[]", "bodies above this one, of the same spacing, that it is glued to",
+             "[\"plate\"]"},
+            {"velocity", vector, "m/s", "[0, 0]", "at the start", "[\"3 m/s\", \"0 m/s\"]", {}, true},
+            {"spin", quantity, "1/s", "0", "at the start, about its centre of mass, counter-clockwise", "\"2 rad/s\""},
+        }},
+        {"disc", "disc", Form::inner, "A full circle.", {
+            {"centre", point, "m", "required", "", "[\"0 m\", \"0 m\"]"},
+            {"radius", quantity, "m", "required", "", "\"1 m\""},
+        }},
+        {"ring", "ring", Form::inner, "A circle with a hole.", {
+            {"centre", point, "m", "required", "", "[\"0 m\", \"0 m\"]"},
+            {"inner", quantity, "m", "required", "radius of the hole", "\"0.8 m\""},
+            {"outer", quantity, "m", "required", "radius", "\"1 m\""},
+        }},
+        {"shape", "difference", Form::inner, "One shape of a difference.", {
+            {"box", points, "m", "", "as in [[body]]", "[[\"0 m\", \"0 m\"], [\"40 m\", \"20 m\"]]"},
+            {"disc", table, "disc", "", "as in [[body]]", "{ centre = [\"0 m\", \"0 m\"], radius = \"1 m\" }"},
+            {"ring", table, "ring", "", "as in [[body]]",
+             "{ centre = [\"0 m\", \"0 m\"], inner = \"0.8 m\", outer = \"1 m\" }"},
+            {"polygon", points, "m", "", "as in [[body]]",
+             "[[\"0 m\", \"0 m\"], [\"4 m\", \"0 m\"], [\"0 m\", \"3 m\"]]"},
+        }},
+        {"notch", "[[notch]]", Form::list, "A cut made before the run; exactly one of line and polyline.", {
+            {"name", text, "", "notch1, notch2, ...", "for messages", "\"slit\""},
+            {"line", points, "m", "", "two points; bonds that cross or touch the cut are gone",
+             "[[\"0 m\", \"10 m\"], [\"5 m\", \"10 m\"]]"},
+            {"polyline", points, "m", "", "two points or more", "[[\"0 m\", \"10 m\"], [\"5 m\", \"10 m\"], [\"6 m\", \"12 m\"]]"},
+            {"body", text, "", "all bodies", "the only body it cuts", "\"plate\""},
+        }},
+        {"fix", "[[fix]]", Form::list, "A support: particles held in place.", {
+            {"name", text, "", "fix1, fix2, ...", "for messages", "\"clamp\""},
+            {"where", condition, "", "required, unless body is given", "which particles", "\"x < spacing\""},
+            {"body", text, "", "all bodies", "only particles of this body", "\"plate\""},
+            {"hold", choices, "", "required", "directions in which they cannot move; one alone is a roller",
+             "[\"x\", \"y\"]", {"x", "y", "z"}},
+        }},
+        {"load", "[[load]]", Form::list,
+         "A load: exactly one of force, pressure, displacement, velocity, on a selection or on a face.", {
+            {"name", text, "", "load1, load2, ...", "column load.NAME of history.csv", "\"tip\""},
+            {"where", condition, "", "required, unless face or body is given", "which particles", "\"x > 39 m\""},
+            {"body", text, "", "all bodies", "only particles of this body; with face: the body it belongs to", "\"plate\""},
+            {"face", choice, "", "", "a side of a box, for force or pressure", "\"right\"",
+             {"left", "right", "bottom", "top"}},
+            {"force", vector, "N", "", "total force; with where in equal shares, with face by the face's areas",
+             "[\"0 N\", \"-80 MN\"]", {}, true},
+            {"pressure", quantity, "Pa", "", "pushes into the body; negative pulls", "\"2 MPa\"", {}, true},
+            {"displacement", vector, "m", "", "prescribed; \"free\" leaves a direction alone", "[\"1 mm\", \"free\"]", {},
+             true},
+            {"velocity", vector, "m/s", "", "prescribed; \"free\" leaves a direction alone", "[\"free\", \"-3 m/s\"]", {},
+             true},
+            {"pulse", table, "", "", "a pressure pulse", "{ }", {}, false, false},
+            {"ramp", quantity, "s", "0 s", "grows evenly from nothing to the full value in this time, then stays",
+             "\"40 s\""},
+            {"until", moment, "", "never", "when it is taken away", "\"separation\""},
+            {"primary", flag, "", "true for the first load if none says so",
+             "drives the curve and the events; one load at most", "true"},
+            {"no_fail", flag, "", "false", "bonds between two of its particles never break", "true"},
+        }},
+        {"gravity", "[gravity]", Form::single, "Weight; absent: none.", {
+            {"acceleration", vector, "m/s^2", "[0, -9.80665]", "of every particle", "[\"0 m/s^2\", \"-9.81 m/s^2\"]"},
+        }},
+        {"damping", "[damping]", Form::single, "Drag on every particle, in proportion to its mass; absent: none.", {
+            {"ratio", quantity, "", "", "of the first mode of vibration; 1 just suppresses it. For bodies that are held",
+             "0.3"},
+            {"rate", quantity, "1/s", "", "c in a = -c v, in place of ratio", "\"0.5 s^-1\""},
+            {"until", moment, "", "never", "when it ends", "\"separation\""},
+        }},
+        {"run", "[run]", Form::single, "How long, and in which steps.", {
+            {"until", moment, "", "max_time", "when the run ends", "\"separation + 0.5 s\""},
+            {"max_time", quantity, "s", "required, unless until is a time", "when it ends at the latest", "\"60 s\""},
+            {"time_step", quantity, "s", "chosen", "must be below the stable limit", "\"1 ms\""},
+            {"time_step_factor", quantity, "", "0.8, or 0.5 where bonds can break",
+             "the chosen time step over the stable limit, below 1", "0.5"},
+        }},
+        {"view", "[view]", Form::single, "What the pictures look like.", {
+            {"size", size, "", "[1920, 1080]", "pixels, even numbers", "[1280, 720]"},
+            {"colour", table, "colour", "", "what colours the particles", "{ field = \"von_mises\", map = \"viridis\" }"},
+            {"theme", choice, "", "dark", "", "\"light\"", theme_names()},
+            {"show", choices, "", "all of them", "what stands beside the picture", "[\"title\", \"time\"]",
+             View::all_parts()},
+            {"window", points, "m", "the run up to separation", "two corners of the part of space that is shown",
+             "[[\"0 m\", \"0 m\"], [\"40 m\", \"20 m\"]]"},
+            {"bonds", choice, "", "nearest", "which intact bonds are drawn", "\"all\"", {"none", "nearest", "all"}},
+            {"magnify", quantity, "", "1", "displacements are drawn this many times as large", "100"},
+        }},
+        {"colour", "colour", Form::inner, "What colours the particles.", {
+            {"field", choice, "", "bond_strain", "", "\"von_mises\"", scalar_field_names()},
+            {"map", choice, "", "inferno", "", "\"viridis\"", colour_map_names()},
+            {"range", range, "", "run", "\"run\": what occurs during the run; or [low, high] in the unit of the field",
+             "[\"0 MPa\", \"20 MPa\"]"},
+        }},
+        {"movie", "[movie]", Form::single, "The film.", {
+            {"duration", quantity, "s", "12 s", "of the whole film, slow parts included", "\"8 s\""},
+            {"fps", integer, "", "25", "frames per second", "30"},
+            {"slow", tables, "slow", "[]", "slow motion; without it the failure gets a third of the film",
+             "[{ around = \"first_break\", span = \"0.5 s\", rate = 0.05 }]"},
+            {"formats", choices, "", "[\"mp4\"]", "gif and webm are not available yet", "[\"mp4\"]", {"mp4", "gif", "webm"}},
+        }},
+        {"slow", "slow", Form::inner, "One span of slow motion.", {
+            {"around", moment, "", "required", "what is seen slowly; a fifth of the span comes before it", "\"first_break\""},
+            {"span", quantity, "s", "required", "simulated time", "\"0.5 s\""},
+            {"rate", quantity, "", "required", "speed relative to the rest of the film", "0.05"},
+        }},
+        {"strip", "[strip]", Form::single, "A strip of key frames.", {{"at", moment, "", "", "", ""}}, false},
+        {"test", "[test]", Form::single, "Frames that are compared with stored ones.", {{"frames", moment, "", "", "", ""}},
+         false},
+        {"contact", "[contact]", Form::single, "Contact between bodies and fragments.", {}, false},
+        {"rigid", "[[rigid]]", Form::list, "A rigid tool.", {}, false},
+    };
+    return blocks;
+}
+// clang-format on
+
+}  // namespace hibi

@@ -1,0 +1,34 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/document.hpp"
+#include "scene/read.hpp"
+
+namespace hibi {
+
+/// Mistakes of a scene, each with the path of the value it concerns ("load/0/force/1"). Where a value stands is
+/// told once, when it is read; checks that come later name the path alone.
+class Problems {
+  public:
+    void stands_at(const std::string& path, const Place& place) { places_[path] = place; }
+
+    /// A second mistake of the same value is left out: it mostly follows from the first.
+    void add(const std::string& path, const std::string& message, const std::string& hint = {});
+    void add(const std::string& path, const Place& place, const std::string& message, const std::string& hint);
+
+    /// Whether the value, something in it, or something it is in, is known to be wrong.
+    bool concerns(const std::string& path) const;
+    /// Whether the value may be judged further.
+    bool fine(const std::string& path) const { return !concerns(path); }
+
+    const std::vector<SceneError>& errors() const { return errors_; }
+
+  private:
+    std::map<std::string, Place> places_;
+    std::vector<std::string> paths_;
+    std::vector<SceneError> errors_;
+};
+
+}  // namespace hibi
