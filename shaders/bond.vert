@@ -28,7 +28,7 @@ void main() {
     half_width = max(0.5 * width, 0.5);
     // A line thinner than a pixel is drawn one pixel wide and fainter; dense bodies show none.
     strength = 0.35 * min(width, 1.0) * smoothstep(12.0, 24.0, spacing);
-    across = corner.y * (half_width + 1.0);
+    across = corner.y * (half_width + 0.5);
     vec2 place = mix(a.xy, b.xy, 0.5 * corner.x + 0.5) + normal * across;
     gl_Position = vec4((place + guard) / (picture + 2.0 * guard) * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -33,7 +33,7 @@ void main() {
     half_width = min(a.z, b.z);
     half_width = clamp(0.5 * length(line), half_width, 1.2 * half_width) + 0.25;
     along = 0.5 * corner.x + 0.5;
-    across = corner.y * (half_width + 1.0);
+    across = corner.y * (half_width + 0.5);
     vec2 place = mix(a.xy, b.xy, along) + normal * across;
     gl_Position = vec4((place + guard) / (picture + 2.0 * guard) * 2.0 - 1.0, 0.0, 1.0);
     first_colour = colour_of(a.w);

@@ -10,8 +10,9 @@ namespace hibi {
 
 struct DrawOptions {
     RendererOptions renderer{};
-    bool movie = true;                   ///< movie.mp4 beside frames and poster
-    bool frames = true;                  ///< keep the PNG frames
+    bool movie = true;   ///< movie.mp4 beside frames and poster
+    bool frames = true;  ///< keep the PNG frames
+    int workers = 2;     ///< threads that hash and write PNG frames; the pictures do not depend on it
     std::function<void(int done, int total)> progress{};
 };
 
@@ -21,11 +22,13 @@ struct DrawResult {
     std::string renderer;
 };
 
-/// frames/, frames.json, movie.mp4 and poster.png of a recorded run, from its states alone: the one way pictures are made, by
-/// `run` as by `render`. Frames, PNG workers and the encoder overlap.
+/// frames/, frames.json, movie.mp4 and poster.png of a recorded run, from its states alone: the one way
+/// pictures are made, by `run` as by `render`. Frames, PNG workers and the encoder overlap. Pictures of an
+/// earlier drawing are removed first. Without movie and frames only the poster is drawn. Errors
+/// (std::runtime_error) name the file; what was finished by then stays.
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options);
 
-/// The body as it stands before the run, with supports, loads and notches.
+/// The body as it stands before the run, with supports, loads at full size and notches.
 void draw_setup(const Scene& scene, const std::filesystem::path& png, const DrawOptions& options);
 
 }  // namespace hibi

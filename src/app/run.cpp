@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/units.hpp"
 #include "measure/watch.hpp"
+#include "record/summary.hpp"
 
 namespace hibi {
 

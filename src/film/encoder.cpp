@@ -42,6 +42,7 @@ struct Encoder::Impl {
         open_codec();
         make_frame();
         output = create_film(part, file);
+        output->flags |= AVFMT_FLAG_FLUSH_PACKETS;  // a fragment that is complete stands on the disk
         AVStream* stream = add_film_stream(*output, video.metadata);
         check(avcodec_parameters_from_context(stream->codecpar, codec.get()), "describe the video");
         set_film_rate(*stream, video.fps);
@@ -96,7 +97,8 @@ struct Encoder::Impl {
         // Left alone, swscale uses BT.601, and a player that believes the tags shows other colours.
         const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
         const int full = 1, limited = 0, plain = 1 << 16;
-        sws_setColorspaceDetails(scaler.get(), bt709, full, bt709, limited, 0, plain, plain);
+        if (sws_setColorspaceDetails(scaler.get(), bt709, full, bt709, limited, 0, plain, plain) < 0)
+            fail("cannot convert the colours to BT.709");
         packet.reset(av_packet_alloc());
     }
 

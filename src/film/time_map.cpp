@@ -41,7 +41,7 @@ constexpr double most_after = 0.25;
 // The failure begins this much before first break: a part of its own length, but not less than a part of the
 // run, so that a body that breaks in one moment is seen to do so.
 constexpr double lead_of_failure = 0.05;
-constexpr double least_lead_of_run = 0.005;
+constexpr double least_lead_of_run = 0.0005;
 
 std::vector<Piece> with_emphasis(double begin, double end, const Emphasis& emphasis) {
     const double lead = std::max(lead_of_failure * (emphasis.separation - emphasis.first_break),

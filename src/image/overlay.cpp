@@ -92,7 +92,7 @@ struct Overlay::Impl {
         if (layout.parts.title) {
             TextStyle s{.size = layout.title_size, .colour = colours.text, .strong = true};
             const double needed = type.width(content.title, s);
-            if (needed > r.width) s.size *= std::max(0.7, r.width / needed * 0.999);
+            if (needed > r.width) s.size *= std::max({0.7, layout.text / s.size, r.width / needed * 0.999});
             const int lines = std::max(1, static_cast<int>(r.height / (1.2 * s.size)));
             const std::vector<std::string> broken =
                 type.wrapped(content.title, s, r.width, std::min(lines, 2));

@@ -20,9 +20,9 @@ struct ColourBar {
 
 /// The growing inset: all points of the run; a frame draws those up to its time. Axes fixed over the run.
 struct InsetCurve {
-    std::string x_title, x_unit, y_title, y_unit;
-    std::vector<double> time, x, y;
-    std::vector<double> broken;  ///< optional second line, a count on the same x
+    std::string x_title{}, x_unit{}, y_title{}, y_unit{};
+    std::vector<double> time{}, x{}, y{};
+    std::vector<double> broken{};  ///< optional second line, a count on the same x
 };
 
 /// A support or load in pixels of one frame.
@@ -30,7 +30,8 @@ struct Symbol {
     enum class Kind {
         clamp,   ///< hatching along the outline of particles held both ways
         roller,  ///< circles under the outline of particles held one way
-        arrow    ///< one arrow per point, tails joined by a line
+        arrow,   ///< one arrow per point, tails joined by a line
+        notch    ///< a line through the points
     };
     Kind kind = Kind::clamp;
     std::vector<std::array<double, 2>>
@@ -46,12 +47,12 @@ double symbol_reach(Symbol::Kind kind, const View& view);
 
 /// What stays the same in every frame.
 struct OverlayContent {
-    std::string title, subtitle;
-    ColourBar colour_bar;
-    InsetCurve curve;            ///< fewer than two points: no inset
+    std::string title{}, subtitle{};
+    ColourBar colour_bar{};
+    InsetCurve curve{};          ///< fewer than two points: no inset
     bool has_breaks = false;     ///< the legend explains broken bonds
-    std::string load_title;      ///< e.g. "Load"; empty: no load is shown
-    std::string load_unit;       ///< "N"
+    std::string load_title{};    ///< e.g. "Load"; empty: no load is shown
+    std::string load_unit{};     ///< "N"
     double load_max = 0;         ///< largest magnitude over the run: fixes prefix and decimals
     double time_end = 0;         ///< of the run (s): fixes prefix
     double time_resolution = 0;  ///< smallest difference that the time has to show (s): fixes decimals
@@ -65,7 +66,7 @@ struct OverlayFrame {
     double event_strength = 1;           ///< 0..1, for fading out
     double speed = 1;  ///< playback speed relative to the film's usual one; shown when it is slow motion
     double pixels_per_metre = 1;
-    std::vector<Symbol> symbols;
+    std::vector<Symbol> symbols{};
 };
 
 /// Places and draws titles, time, load, colour bar, scale bar, legend, symbols and the inset with Cairo. The

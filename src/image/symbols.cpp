@@ -117,19 +117,34 @@ void draw_arrows(cairo_t* cairo, const Symbol& symbol, double unit) {
     }
 }
 
+void draw_notch(cairo_t* cairo, const Symbol& symbol, double unit) {
+    cairo_set_line_width(cairo, std::max(1.5, 3.5 * unit));
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    for (const Point& p : symbol.points) cairo_line_to(cairo, p[0], p[1]);
+    cairo_stroke(cairo);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
+}
+
+Rgb colour_of(Symbol::Kind kind, const Theme& theme) {
+    if (kind == Symbol::Kind::arrow) return theme.load;
+    return kind == Symbol::Kind::notch ? theme.crack_fresh : theme.support;
+}
+
 }  // namespace
 
 double symbol_reach(Symbol::Kind kind, const View& view) {
     const double unit = lay_out(view.width, view.height, {}).unit;
     const double room = 3 * unit + 2;
     if (kind == Symbol::Kind::arrow) return arrow_length * unit + room;
+    if (kind == Symbol::Kind::notch) return 0;
     if (kind == Symbol::Kind::clamp) return hatch_depth * unit + room;
     return 2 * std::max(2.0, roller_radius * unit) + 0.6 * hatch_depth * unit + room;
 }
 
 void draw_symbol(cairo_t* cairo, const Symbol& symbol, const Theme& theme, double unit) {
     if (symbol.points.empty()) return;
-    set_colour(cairo, symbol.kind == Symbol::Kind::arrow ? theme.load : theme.support);
+    set_colour(cairo, colour_of(symbol.kind, theme));
+    if (symbol.kind == Symbol::Kind::notch) draw_notch(cairo, symbol, unit);
     if (symbol.kind == Symbol::Kind::arrow) draw_arrows(cairo, symbol, unit);
     if (symbol.kind == Symbol::Kind::roller) draw_rollers(cairo, symbol, unit);
     if (symbol.kind == Symbol::Kind::clamp)

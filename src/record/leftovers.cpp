@@ -12,9 +12,9 @@ namespace hibi {
 namespace {
 
 /// Everything a run writes beside its states and frames.
-constexpr const char* single_files[] = {"movie.mp4",         "poster.png",  "strip.png",  "cracks.png",
-                                        "history.csv",       "breaks.csv",  "scene.toml", "run.json",
-                                        "states.hdf.series", "frames.json", "report.html"};
+constexpr const char* single_files[] = {"movie.mp4",  "movie.part.mp4",    "poster.png",  "strip.png",
+                                        "cracks.png", "history.csv",       "breaks.csv",  "scene.toml",
+                                        "run.json",   "states.hdf.series", "frames.json", "report.html"};
 
 void remove_one(const std::filesystem::path& file) {
     std::error_code error;

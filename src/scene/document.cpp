@@ -2,9 +2,8 @@
 
 // Its assertions abort the program on input as small as "[[[".
 #define TOML_ASSERT(expression) static_cast<void>(0)
-#include <toml++/toml.h>
-
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +51,7 @@ bool before(const Place& a, const Place& b) {
 }
 
 class Converter {
-  public:
+ public:
     Converter(const std::string& source, std::vector<SceneError>& errors) : errors_(errors) {
         std::size_t begin = 0;
         while (begin <= source.size()) {
@@ -110,7 +109,7 @@ class Converter {
         return value;
     }
 
-  private:
+ private:
     std::vector<SceneError>& errors_;
     std::vector<std::string_view> lines_;
 
@@ -124,13 +123,14 @@ class Converter {
             }
     }
 
-    /// Whether the bytes behind the opening quote are those of the text, so that places inside it can be shown.
+    /// Whether the bytes behind the opening quote are those of the text, so that places inside it can be
+    /// shown.
     bool stands_as_written(const Value& value) const {
         if (value.place.line < 1 || value.place.line > static_cast<int>(lines_.size())) return false;
         const std::string_view line = lines_[value.place.line - 1];
         std::size_t at = 0;
-        for (int column = 1; column < value.place.column && at < line.size(); ++column)
-            do ++at;
+        for (int column = 1; column < value.place.column && at < line.size(); ++column) do
+                ++at;
             while (at < line.size() && (line[at] & 0xC0) == 0x80);
         return at + 1 <= line.size() && line.substr(at + 1, value.text.size()) == value.text &&
                at + 1 + value.text.size() < line.size() && line[at + 1 + value.text.size()] == line[at];
@@ -139,7 +139,8 @@ class Converter {
 
 /// The parser's words, made shorter; and the place of the token it speaks of, where it stands behind it.
 SceneError located(const toml::parse_error& error) {
-    SceneError result{static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column), 1,
+    SceneError result{static_cast<int>(error.source().begin.line),
+                      static_cast<int>(error.source().begin.column), 1,
                       "not TOML: " + std::string(error.description())};
     const std::string said = "Error while parsing ";
     const std::size_t at = result.message.find(said);

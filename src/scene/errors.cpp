@@ -11,7 +11,8 @@ namespace {
 constexpr int widest_excerpt = 160;  // characters of a line that are shown
 constexpr int most_errors = 50;      // shown; the rest is counted
 
-/// The characters of a line, one string each; what a terminal would not print as one cell becomes one that it does.
+/// The characters of a line, one string each; what a terminal would not print as one cell becomes one that it
+/// does.
 std::vector<std::string> characters(const std::string& source, int wanted_line) {
     std::vector<std::string> result;
     std::size_t at = 0;
@@ -25,7 +26,10 @@ std::vector<std::string> characters(const std::string& source, int wanted_line) 
         if ((byte & 0xC0) == 0x80 && !result.empty())
             result.back() += source[at];
         else
-            result.emplace_back(1, byte == '\t' ? ' ' : byte == '\r' ? ' ' : byte < 32 || byte == 127 ? '?' : source[at]);
+            result.emplace_back(1, byte == '\t'               ? ' '
+                                   : byte == '\r'             ? ' '
+                                   : byte < 32 || byte == 127 ? '?'
+                                                              : source[at]);
         if (result.size() > 200000) break;
     }
     return result;
@@ -55,11 +59,12 @@ std::string excerpt(const SceneError& error, const std::string& source) {
     if (last < size) shown += "...";
     if (marks.find('^') == std::string::npos) marks += '^';
     while (!shown.empty() && shown.back() == ' ') shown.pop_back();
-    return fmt::format("\n{:>5} | {}\n      | {}{}{}", error.line, shown, marks, error.hint.empty() ? "" : " ",
-                       error.hint);
+    return fmt::format("\n{:>5} | {}\n      | {}{}{}", error.line, shown, marks,
+                       error.hint.empty() ? "" : " ", error.hint);
 }
 
-std::string report(const std::string& file, const std::string& source, const std::vector<SceneError>& errors) {
+std::string report(const std::string& file, const std::string& source,
+                   const std::vector<SceneError>& errors) {
     std::string text;
     int shown = 0;
     for (const SceneError& error : errors) {
@@ -72,7 +77,8 @@ std::string report(const std::string& file, const std::string& source, const std
             text += fmt::format("{}:{}:{}: error: {}", file, error.line, error.column, error.message);
             text += excerpt(error, source);
         } else {
-            text += fmt::format("{}: error: {}{}{}", file, error.message, error.hint.empty() ? "" : "; ", error.hint);
+            text += fmt::format("{}: error: {}{}{}", file, error.message, error.hint.empty() ? "" : "; ",
+                                error.hint);
         }
     }
     return text;

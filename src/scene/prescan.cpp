@@ -6,7 +6,6 @@ namespace hibi {
 
 namespace {
 
-constexpr std::size_t largest_source = std::size_t(16) << 20;  // bytes
 constexpr int deepest_brackets = 32;
 constexpr int most_dots = 16;  // of one dotted key
 
@@ -21,8 +20,8 @@ int character_bytes(const std::string& s, std::size_t at) {
         if ((byte(at + i) & 0xC0) != 0x80) return 0;
     const unsigned second = byte(at + 1);
     // Overlong forms, surrogates, and beyond U+10FFFF.
-    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
-        (lead == 0xF4 && second > 0x8F))
+    if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
+        (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F))
         return 0;
     return bytes;
 }
@@ -30,8 +29,8 @@ int character_bytes(const std::string& s, std::size_t at) {
 }  // namespace
 
 std::optional<SceneError> prescan(const std::string& source) {
-    if (source.size() > largest_source)
-        return SceneError{0, 0, 1, fmt::format("a scene file of more than {} MB", largest_source >> 20),
+    if (source.size() > largest_scene_bytes)
+        return SceneError{0, 0, 1, fmt::format("a scene file of more than {} MB", largest_scene_bytes >> 20),
                           "is this the right file?"};
     int line = 1, column = 1, depth = 0, dots = 0;
     enum class In { plain, comment, text } in = In::plain;
@@ -40,17 +39,18 @@ std::optional<SceneError> prescan(const std::string& source) {
         const char c = source[i];
         int bytes = character_bytes(source, i);
         if (c == '\0' || bytes == 0)
-            return SceneError{line, column, 1,
-                              fmt::format("byte 0x{:02x}: this is not a text file", static_cast<unsigned char>(c)),
-                              "a scene is TOML, a text in UTF-8"};
+            return SceneError{
+                line, column, 1,
+                fmt::format("byte 0x{:02x}: this is not a text file", static_cast<unsigned char>(c)),
+                "a scene is TOML, a text in UTF-8"};
         switch (in) {
             case In::comment:
                 break;
             case In::text:
                 if (c == '\\' && quote[0] == '"' && i + 1 < source.size() && source[i + 1] != '\n' &&
                     source[i + 1] != '\0') {
-                    // The escaped character may be a quote. What follows a backslash is checked on its own turn
-                    // if it is not one of ASCII.
+                    // The escaped character may be a quote. What follows a backslash is checked on its own
+                    // turn if it is not one of ASCII.
                     if (static_cast<unsigned char>(source[i + 1]) < 0x80) bytes = 2;
                 } else if (source.compare(i, quote.size(), quote) == 0) {
                     bytes = static_cast<int>(quote.size());

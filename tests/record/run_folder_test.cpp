@@ -98,8 +98,8 @@ TEST(RunFolder, NextRunRemovesWhatTheLastOneLeftAndNothingElse) {
     const TemporaryFolder folder;
     example::write_run(folder.path());
     fs::create_directories(folder.path() / "frames");
-    for (const char* ours :
-         {"movie.mp4", "poster.png", "frames.json", "frames/000000.png", "states/000040.hdf.tmp"})
+    for (const char* ours : {"movie.mp4", "movie.part.mp4", "poster.png", "frames.json", "frames/000000.png",
+                             "states/000040.hdf.tmp"})
         write_file(folder.path() / ours, "old");
     for (const char* stranger : {"notes.txt", "my.csv", "states/measured.hdf", "states/12 apples.hdf"})
         write_file(folder.path() / stranger, "mine");

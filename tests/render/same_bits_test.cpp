@@ -67,7 +67,8 @@ std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file) {
 TEST(RendererBits, AreTheSameForAnyNumberOfThreadsAndVectorWidth) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const std::string own = "hibi_renderer_bits_test_" + std::to_string(getpid());
-    setenv("HIBI_BITS_FOLDER", (std::filesystem::temp_directory_path() / own).c_str(), 0);  // children keep it
+    setenv("HIBI_BITS_FOLDER", (std::filesystem::temp_directory_path() / own).c_str(),
+           0);  // children keep it
     const std::filesystem::path folder = std::getenv("HIBI_BITS_FOLDER");
     std::filesystem::create_directories(folder);
     const std::pair<const char*, const char*> settings[] = {{"LP_NUM_THREADS", "0"},

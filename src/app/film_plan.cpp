@@ -1,0 +1,123 @@
+#include "app/film_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hibi {
+
+namespace {
+
+constexpr double label_duration = 1.6, label_fading = 0.4, flash_duration = 0.6;  // seconds of playback
+/// The part of a slow span that lies before its event.
+constexpr double slow_lead = 0.2;
+
+std::string words(EventName event) {
+    switch (event) {
+        case EventName::first_break:
+            return "First break";
+        case EventName::peak_load:
+            return "Peak load";
+        case EventName::separation:
+            return "Separation";
+        default:
+            return "";
+    }
+}
+
+/// First frame at or after a time; none where the time lies after the last.
+std::optional<int> first_frame(const std::vector<double>& times, double time) {
+    const auto found = std::ranges::lower_bound(times, time);
+    if (found == times.end()) return {};
+    return static_cast<int>(found - times.begin());
+}
+
+TimeMap time_map(const MovieSpec& movie, const Events& events, double begin, double end) {
+    std::vector<SlowSpan> slow;
+    for (const SlowSpec& spec : movie.slow) {
+        const std::optional<double> around = events.time_of(spec.around);
+        if (!around) continue;
+        const double first = std::max(begin, *around - slow_lead * spec.span);
+        const double last = std::min(end, *around + (1 - slow_lead) * spec.span);
+        if (last > first) slow.push_back({first, last, spec.rate});
+    }
+    std::optional<Emphasis> emphasis;
+    if (events.first_break)
+        emphasis = Emphasis{events.first_break->time, events.separation ? events.separation->time : end};
+    return TimeMap(begin, end, movie.duration, slow, emphasis);
+}
+
+/// Shortly before separation; without one the end of the run; without any break the peak load.
+int poster_frame(const FilmPlan& plan, const Events& events) {
+    const int last = static_cast<int>(plan.time.size()) - 1;
+    if (events.first_break && events.separation) {
+        const double from = plan.map.film(events.first_break->time),
+                     to = plan.map.film(events.separation->time);
+        const double wanted = from + 0.9 * (to - from);
+        return std::clamp(static_cast<int>(wanted / plan.map.duration() * last), 0, last);
+    }
+    if (!events.first_break && events.peak_load)
+        return first_frame(plan.time, events.peak_load->time).value_or(last);
+    return last;
+}
+
+}  // namespace
+
+FilmPlan plan_film(const MovieSpec& movie, const Events& events, double begin, double end) {
+    FilmPlan plan{.map = time_map(movie, events, begin, end), .time = {}, .event = {}, .poster = 0};
+    const int frames = movie.frames();
+    plan.event.resize(frames);
+    plan.time.resize(frames);
+    for (int k = 0; k < frames; ++k) plan.time[k] = plan.map.simulated(plan.film_time(k));
+    plan.time.back() = end;  // to the last bit, so that the last frame is the last state
+    plan.event.front() = EventName::start;
+    plan.event.back() = EventName::end;
+    for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
+        if (const std::optional<double> time = events.time_of({name, 0}))
+            if (const std::optional<int> frame = first_frame(plan.time, *time)) plan.event[*frame] = name;
+    plan.poster = poster_frame(plan, events);
+    return plan;
+}
+
+double FilmPlan::film_time(int frame) const {
+    const int last = static_cast<int>(time.size()) - 1;
+    return last > 0 ? map.duration() * frame / last : map.duration();
+}
+
+std::optional<FilmPlan::Label> FilmPlan::label(int frame) const {
+    for (int k = frame; k >= 0; --k) {
+        const double age = film_time(frame) - film_time(k);
+        if (age >= label_duration) break;
+        if (event[k] && !words(*event[k]).empty())
+            return Label{words(*event[k]), std::min(1.0, (label_duration - age) / label_fading)};
+    }
+    return {};
+}
+
+double FilmPlan::speed(int frame) const {
+    double fastest = 0, here = 0;
+    const std::vector<std::pair<double, double>>& knots = map.knots();
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+        const double film = knots[i].first - knots[i - 1].first;
+        if (film <= 0) continue;
+        const double slope = (knots[i].second - knots[i - 1].second) / film;
+        fastest = std::max(fastest, slope);
+        if (film_time(frame) >= knots[i - 1].first) here = slope;
+    }
+    return fastest > 0 ? here / fastest : 1;
+}
+
+double FilmPlan::freshness(int frame, double broken_at) const {
+    return std::clamp(1 - (film_time(frame) - map.film(broken_at)) / flash_duration, 0.0, 1.0);
+}
+
+double FilmPlan::smallest_step() const {
+    double smallest = 0;
+    for (std::size_t k = 1; k < time.size(); ++k) {
+        const double step = time[k] - time[k - 1];
+        if (step > 1e-9 * (time.back() - time.front()))
+            smallest = smallest > 0 ? std::min(smallest, step) : step;
+    }
+    return smallest;
+}
+
+}  // namespace hibi

@@ -1,0 +1,157 @@
+#include "app/frame_writer.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace hibi {
+
+namespace {
+
+struct Job {
+    Image image;
+    std::size_t index = 0;
+    FrameInfo info;
+    PngText text;
+    int uses_left = 0;  // threads that still need the image
+};
+
+}  // namespace
+
+struct FrameWriter::Impl {
+    std::filesystem::path folder;
+    std::mutex mutex;  // guards everything below
+    std::condition_variable changed;
+    std::vector<Image> free;  // pictures nobody uses
+    std::deque<std::shared_ptr<Job>> to_write, to_encode;
+    std::vector<FrameInfo> done;
+    bool closed = false;       // no more frames will come
+    std::exception_ptr error;  // the first of any thread; all stop then
+    double encode_seconds = 0;
+
+    std::optional<Encoder> encoder;
+    bool writes = false;
+    std::vector<std::thread> threads;
+
+    ~Impl() {
+        {
+            const std::lock_guard lock(mutex);
+            closed = true;
+            if (!finished) to_write.clear(), to_encode.clear();
+        }
+        changed.notify_all();
+        for (std::thread& thread : threads)
+            if (thread.joinable()) thread.join();
+    }
+    bool finished = false;
+
+    void rethrow() const {
+        if (error) std::rethrow_exception(error);
+    }
+
+    /// Takes jobs off a queue until it is closed and empty, or something failed anywhere.
+    template <class Work>
+    void work_through(std::deque<std::shared_ptr<Job>>& queue, Work&& work) {
+        std::unique_lock lock(mutex);
+        while (true) {
+            changed.wait(lock, [&] { return error || closed || !queue.empty(); });
+            if (error || queue.empty()) return;
+            const std::shared_ptr<Job> job = queue.front();
+            queue.pop_front();
+            lock.unlock();
+            std::exception_ptr failure;
+            try {
+                work(*job);
+            } catch (...) {
+                failure = std::current_exception();
+            }
+            lock.lock();
+            if (failure && !error) error = failure;
+            if (--job->uses_left == 0) free.push_back(std::move(job->image));
+            changed.notify_all();
+        }
+    }
+
+    void write(Job& job) {
+        job.info.sha256 = pixel_hash(job.image);
+        write_png(folder / job.info.file, job.image, job.text);
+        const std::lock_guard lock(mutex);
+        done[job.index] = job.info;
+    }
+
+    void encode(const Job& job) {
+        const auto begin = std::chrono::steady_clock::now();
+        encoder->add(job.image.bgra.data(), job.image.stride());
+        encode_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+};
+
+FrameWriter::FrameWriter(std::filesystem::path folder, int workers, const std::optional<Video>& video,
+                         int width, int height)
+    : impl_(std::make_unique<Impl>()) {
+    Impl& impl = *impl_;
+    impl.folder = std::move(folder);
+    impl.writes = workers > 0;
+    // One being drawn, one per thread at work, and two waiting for each queue.
+    impl.free.assign(workers + 6, Image(width, height));
+    if (video) impl.encoder.emplace(impl.folder / "movie.mp4", *video);
+    for (int k = 0; k < workers; ++k)
+        impl.threads.emplace_back(
+            [&impl] { impl.work_through(impl.to_write, [&](Job& job) { impl.write(job); }); });
+    if (video)
+        impl.threads.emplace_back(
+            [&impl] { impl.work_through(impl.to_encode, [&](Job& job) { impl.encode(job); }); });
+}
+
+FrameWriter::~FrameWriter() = default;
+
+Image FrameWriter::take() {
+    std::unique_lock lock(impl_->mutex);
+    impl_->changed.wait(lock, [&] { return impl_->error || !impl_->free.empty(); });
+    impl_->rethrow();
+    Image image = std::move(impl_->free.back());
+    impl_->free.pop_back();
+    return image;
+}
+
+void FrameWriter::add(Image image, FrameInfo info, PngText text) {
+    const auto job = std::make_shared<Job>();
+    job->image = std::move(image);
+    job->info = std::move(info);
+    job->text = std::move(text);
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->rethrow();
+        job->index = impl_->done.size();
+        impl_->done.push_back(job->info);
+        job->uses_left = (impl_->writes ? 1 : 0) + (impl_->encoder ? 1 : 0);
+        if (impl_->writes) impl_->to_write.push_back(job);
+        if (impl_->encoder) impl_->to_encode.push_back(job);
+        if (job->uses_left == 0) impl_->free.push_back(std::move(job->image));
+    }
+    impl_->changed.notify_all();
+}
+
+std::vector<FrameInfo> FrameWriter::finish() {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->closed = impl_->finished = true;
+    }
+    impl_->changed.notify_all();
+    for (std::thread& thread : impl_->threads) thread.join();
+    impl_->rethrow();
+    if (impl_->encoder) {
+        const auto begin = std::chrono::steady_clock::now();
+        impl_->encoder->finish();
+        impl_->encode_seconds +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+    return impl_->done;
+}
+
+double FrameWriter::encode_seconds() const { return impl_->encode_seconds; }
+
+}  // namespace hibi

@@ -1,0 +1,56 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/film_plan.hpp"
+#include "record/run_folder.hpp"
+#include "render/renderer.hpp"
+
+namespace hibi {
+
+/// The last state that counts for what is fixed over a run: the first at or after separation, else the very
+/// last.
+int last_counting_state(const RunReader& run);
+
+/// Box around all particles in all states that count (m), discs included: x0, y0, x1, y1.
+std::array<double, 4> body_window(const RunReader& run, const View& view);
+
+/// Range of the coloured field over all states that count, from the finite values. Signed fields: symmetric
+/// about zero; fields without negative values: from zero. Never empty.
+std::array<double, 2> colour_range(const RunReader& run, const std::string& field);
+
+/// Turns recorded states into pictures at any moment, in any order, but cheaply only with rising time: two
+/// states are kept. Displacements and values are interpolated between states, bonds never: one is broken iff
+/// broken_at <= time.
+class PictureSource {
+ public:
+    PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range);
+
+    /// Everything but camera and freshness, which is 0.
+    Picture2 at(double time);
+    const std::vector<double>& x() const { return x_; }  ///< of the last picture, particle by particle (m)
+    const std::vector<double>& y() const { return y_; }
+
+ private:
+    struct Loaded {
+        int state = -1;
+        std::vector<Vec3> displacement;
+        std::vector<float> value;
+    };
+    const Loaded& load(int state, int keep);
+
+    const RunReader& run_;
+    View view_;
+    std::array<double, 2> range_;
+    std::vector<int> intact_candidates_, by_time_of_break_;
+    Loaded loaded_[2];
+    std::vector<double> x_, y_;
+};
+
+/// Bonds that are drawn while they are intact: none, those of nearest neighbours (rest_length <= 1.01 l0), or
+/// all.
+std::vector<int> drawn_bonds(const Topology& topology, const std::string& which);
+
+}  // namespace hibi

@@ -1,0 +1,190 @@
+#include "scene/read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "base/hash.hpp"
+#include "scene/build.hpp"
+#include "scene/checks.hpp"
+#include "scene/prescan.hpp"
+#include "scene/read_blocks.hpp"
+#include "scene/suggest.hpp"
+
+namespace hibi {
+
+namespace {
+
+bool is_name(const std::string& text) {
+    return !text.empty() && !std::isdigit(static_cast<unsigned char>(text[0])) &&
+           std::all_of(text.begin(), text.end(),
+                       [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
+}
+
+/// A value given on the command line, in place of one of [params].
+void override_parameter(ReadContext& context, const std::string& name, const std::string& text, Quantity& quantity) {
+    const std::string path = "-p/" + name;
+    try {
+        const Expression given(text, context.names);
+        if (given.is_condition() || (!given.is_bare_number() && !(given.dimension() == quantity.dimension)))
+            context.problems.add(
+                path, fmt::format("-p {0}={1}: {0} is {2}; \"{1}\" is {3}", name, text, dimension_name(quantity.dimension),
+                                  given.is_condition() ? "a condition" : dimension_name(given.dimension())));
+        else
+            quantity.value = given(Vec3::Zero(), 0);
+    } catch (const ExpressionError& error) {
+        context.problems.add(path, fmt::format("-p {}={}: {}", name, text, error.what()), error.hint);
+    }
+}
+
+void read_params(const Value& document, const Overrides& overrides, ReadContext& context, Scene& scene) {
+    const Value* params = document.find("params");
+    std::vector<std::string> known;
+    for (const Entry& entry : params ? params->entries : std::vector<Entry>{}) {
+        const std::string path = "params/" + entry.key, label = "[params] " + entry.key;
+        context.problems.stands_at(path, entry.value.place);
+        known.push_back(entry.key);
+        std::optional<Quantity> quantity;
+        if (!is_name(entry.key) || is_reserved_name(entry.key)) {
+            context.problems.add(path, entry.place,
+                                 is_reserved_name(entry.key)
+                                     ? fmt::format("{}: the name has a meaning of its own in expressions", label)
+                                     : fmt::format("{}: not a name", label),
+                                 "letters, digits and _, for example \"spacing\"");
+        } else if (entry.value.kind == Value::Kind::number || entry.value.kind == Value::Kind::integer) {
+            quantity = Quantity{entry.value.number, {}};
+        } else if (entry.value.kind == Value::Kind::text) {
+            try {
+                const Expression formula(entry.value.text, context.names);
+                if (formula.is_condition())
+                    context.problems.add(path, fmt::format("{} needs a value; \"{}\" is a condition", label, entry.value.text));
+                else
+                    quantity = Quantity{formula(Vec3::Zero(), 0), formula.dimension()};
+            } catch (const ExpressionError& error) {
+                report_expression(context, path, entry.value, label, error);
+            }
+        } else {
+            context.problems.add(path, fmt::format("{} needs a value; found {}", label, kind_name(entry.value.kind)),
+                                 "for example: spacing = \"1 m\"");
+        }
+        if (!quantity) {
+            context.broken_names.insert(entry.key);
+            continue;
+        }
+        std::string text = entry.value.kind == Value::Kind::text ? entry.value.text : fmt::format("{}", quantity->value);
+        for (const auto& [name, given] : overrides)
+            if (name == entry.key) {
+                override_parameter(context, name, given, *quantity);
+                text = given;
+            }
+        context.names.params[entry.key] = *quantity;
+        scene.params.push_back({entry.key, text, quantity->value});
+    }
+    for (const auto& [name, given] : overrides) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const auto near = nearest(name, known);
+        context.problems.add("-p/" + name,
+                             fmt::format("-p {}={}: this scene has no parameter \"{}\"", name, given, name),
+                             near            ? fmt::format("did you mean \"{}\"?", *near)
+                             : known.empty() ? "it has no [params]"
+                                             : "known: " + list_of(known));
+    }
+}
+
+/// Blocks that are unknown, not built yet, or written in the wrong brackets; and the keys at the top.
+void read_top(Value& document, ReadContext& context, Scene& scene) {
+    const KeyBlock& top = scene_block("");
+    std::vector<std::string> known = top.key_names();
+    known.push_back("params");
+    for (const KeyBlock& block : scene_blocks())
+        if (block.form != KeyBlock::Form::inner && !block.name.empty()) known.push_back(block.name);
+    Value own;  // the keys at the top, without the blocks
+    own.place = document.place;
+    for (const Entry& entry : document.entries) {
+        if (top.find(entry.key)) {
+            own.entries.push_back(entry);
+            continue;
+        }
+        const std::string shown = entry.value.kind == Value::Kind::array   ? fmt::format("[[{}]]", entry.key)
+                                  : entry.value.kind == Value::Kind::table ? fmt::format("[{}]", entry.key)
+                                                                           : fmt::format("{} = ...", entry.key);
+        if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
+            const bool block = entry.value.kind == Value::Kind::array || entry.value.kind == Value::Kind::table;
+            std::string message = block ? fmt::format("unknown block {}", shown)
+                                        : fmt::format("unknown key \"{}\" at the top of the file", entry.key);
+            const auto near = nearest(entry.key, known);
+            if (near) message += fmt::format("; did you mean \"{}\"?", *near);
+            context.problems.add(entry.key, entry.place, message, near ? "" : "known: " + list_of(known));
+            continue;
+        }
+        if (entry.key == "params") {
+            if (entry.value.kind != Value::Kind::table)
+                context.problems.add(entry.key, entry.place, "params is a block", "write [params]");
+            continue;
+        }
+        const KeyBlock& block = scene_block(entry.key);
+        if (!block.available)
+            context.problems.add(entry.key, entry.place, fmt::format("{}: not available yet", block.title), "leave it out");
+        const bool tables = std::all_of(entry.value.items.begin(), entry.value.items.end(),
+                                        [](const Value& item) { return item.kind == Value::Kind::table; });
+        if (block.form == KeyBlock::Form::list ? entry.value.kind != Value::Kind::array || !tables
+                                               : entry.value.kind != Value::Kind::table)
+            context.problems.add(entry.key, entry.place, fmt::format("{} stands where a block is expected", shown),
+                                 fmt::format("write {}", block.title));
+    }
+    BlockReader reader(context, own, top, "", "the scene");
+    if (const auto version = reader.integer("version"); version && *version != 1)
+        reader.fail("version", fmt::format("version {} of the scene format is not known here", *version), "this program reads version = 1");
+    scene.title = reader.text("title").value_or(scene.file.stem().string());
+    scene.about = reader.text("about").value_or("");
+    if (scene.title.find_first_of("\n\r\t") != std::string::npos) reader.fail("title", "title needs to be one line");
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides) {
+    Scene scene;
+    scene.file = name;
+    std::vector<SceneError> errors;
+    Value document = parse_document(text, errors);
+    if (!errors.empty()) throw SceneErrors(name, text, std::move(errors));
+
+    ReadContext context;
+    // What is missing as a whole is missed at the end of the file.
+    const int lines = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + (text.ends_with('\n') ? 0 : 1);
+    context.problems.stands_at("", {std::max(1, lines), 1, 1});
+    read_top(document, context, scene);
+    read_params(document, overrides, context, scene);
+    read_blocks(document, context, scene);
+    if (std::none_of(scene.loads.begin(), scene.loads.end(), [](const LoadSpec& load) { return load.primary; }) &&
+        !scene.loads.empty())
+        scene.loads.front().primary = true;
+    check_scene(scene, context.problems);
+    assemble(scene, context.problems);
+    if (!context.problems.errors().empty()) throw SceneErrors(name, text, context.problems.errors());
+    return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+    const auto refuse = [&](const std::string& message, const std::string& hint) {
+        throw SceneErrors(file.string(), "", {SceneError{0, 0, 1, message, hint}});
+    };
+    if (std::filesystem::is_directory(file)) refuse("this is a folder", "name the scene file in it");
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
+    if (!in)
+        refuse(fmt::format("cannot open it: {}", std::strerror(errno)), "`hibi new` writes a scene to start from");
+    // One byte more than is allowed is enough to refuse it; devices never end.
+    std::string text(largest_scene_bytes + 1, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), in.get()));
+    if (std::ferror(in.get())) refuse(fmt::format("cannot read it: {}", std::strerror(errno)), "");
+    return parse_scene(text, file.string(), overrides);
+}
+
+std::string scene_hash(const Scene& scene) { return sha256(write_scene(scene)); }
+
+}  // namespace hibi
