@@ -11,7 +11,8 @@ namespace hibi {
 
 namespace {
 
-constexpr double arrow_distance = 34;  // between two arrows of one load, for a picture unit of 1 (pixels)
+constexpr double window_margin = 0.03;  // of the larger side of the body's box
+constexpr double arrow_distance = 34;   // between two arrows of one load, for a picture unit of 1 (pixels)
 
 /// Unit vectors from every particle to its nearest neighbours in the unloaded body.
 std::vector<std::vector<Vec3>> nearest_directions(const Topology& topology) {
@@ -157,6 +158,23 @@ Symbol place_mark(const Mark& mark, std::span<const double> x, std::span<const d
         symbol.points = chosen;
     }
     return symbol;
+}
+
+Camera2 camera_for(const std::array<double, 4>& box, bool fixed, const PixelRect& plot,
+                   std::span<const Mark> marks, const View& view) {
+    if (fixed) return Camera2::fit(box[0], box[1], box[2], box[3], plot);
+    std::array<double, 4> room = room_for(marks, view);
+    for (int side = 0; side < 4; ++side)  // small pictures: the body goes before the symbols
+        room[side] = std::min(room[side], 0.25 * (side % 2 == 0 ? plot.width : plot.height));
+    const PixelRect inner = {plot.x + room[0], plot.y + room[1], plot.width - room[0] - room[2],
+                             plot.height - room[1] - room[3]};
+    const double margin = window_margin * std::max(box[2] - box[0], box[3] - box[1]);
+    Camera2 camera = Camera2::fit(box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin, inner);
+    // The same picture, but clipped to the whole plot.
+    camera.centre_x -= (inner.x + inner.width / 2 - plot.x - plot.width / 2) / camera.scale;
+    camera.centre_y += (inner.y + inner.height / 2 - plot.y - plot.height / 2) / camera.scale;
+    camera.rect = plot;
+    return camera;
 }
 
 }  // namespace hibi

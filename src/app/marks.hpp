@@ -25,6 +25,11 @@ std::vector<Mark> find_marks(const Topology& topology, bool supports, bool loads
 /// Room that the marks need beside the body, in pixels: left, top, right, bottom.
 std::array<double, 4> room_for(std::span<const Mark> marks, const View& view);
 
+/// The window into the plot, with room at the sides for symbols and a margin; a fixed one (of the user's) is
+/// taken as it is.
+Camera2 camera_for(const std::array<double, 4>& window, bool fixed, const PixelRect& plot,
+                   std::span<const Mark> marks, const View& view);
+
 /// The symbol at this moment: x, y are positions of all particles (m). `size` is the load's share of its
 /// largest value, negative where it has changed sign. Arrows are thinned out to a readable distance.
 Symbol place_mark(const Mark& mark, std::span<const double> x, std::span<const double> y,

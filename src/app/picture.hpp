@@ -10,17 +10,6 @@
 
 namespace hibi {
 
-/// The last state that counts for what is fixed over a run: the first at or after separation, else the very
-/// last.
-int last_counting_state(const RunReader& run);
-
-/// Box around all particles in all states that count (m), discs included: x0, y0, x1, y1.
-std::array<double, 4> body_window(const RunReader& run, const View& view);
-
-/// Range of the coloured field over all states that count, from the finite values. Signed fields: symmetric
-/// about zero; fields without negative values: from zero. Never empty.
-std::array<double, 2> colour_range(const RunReader& run, const std::string& field);
-
 /// Turns recorded states into pictures at any moment, in any order, but cheaply only with rising time: two
 /// states are kept. Displacements and values are interpolated between states, bonds never: one is broken iff
 /// broken_at <= time.

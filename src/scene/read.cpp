@@ -27,13 +27,15 @@ bool is_name(const std::string& text) {
 }
 
 /// A value given on the command line, in place of one of [params].
-void override_parameter(ReadContext& context, const std::string& name, const std::string& text, Quantity& quantity) {
+void override_parameter(ReadContext& context, const std::string& name, const std::string& text,
+                        Quantity& quantity) {
     const std::string path = "-p/" + name;
     try {
         const Expression given(text, context.names);
         if (given.is_condition() || (!given.is_bare_number() && !(given.dimension() == quantity.dimension)))
             context.problems.add(
-                path, fmt::format("-p {0}={1}: {0} is {2}; \"{1}\" is {3}", name, text, dimension_name(quantity.dimension),
+                path, fmt::format("-p {0}={1}: {0} is {2}; \"{1}\" is {3}", name, text,
+                                  dimension_name(quantity.dimension),
                                   given.is_condition() ? "a condition" : dimension_name(given.dimension())));
         else
             quantity.value = given(Vec3::Zero(), 0);
@@ -51,32 +53,36 @@ void read_params(const Value& document, const Overrides& overrides, ReadContext&
         known.push_back(entry.key);
         std::optional<Quantity> quantity;
         if (!is_name(entry.key) || is_reserved_name(entry.key)) {
-            context.problems.add(path, entry.place,
-                                 is_reserved_name(entry.key)
-                                     ? fmt::format("{}: the name has a meaning of its own in expressions", label)
-                                     : fmt::format("{}: not a name", label),
-                                 "letters, digits and _, for example \"spacing\"");
+            context.problems.add(
+                path, entry.place,
+                is_reserved_name(entry.key)
+                    ? fmt::format("{}: the name has a meaning of its own in expressions", label)
+                    : fmt::format("{}: not a name", label),
+                "letters, digits and _, for example \"spacing\"");
         } else if (entry.value.kind == Value::Kind::number || entry.value.kind == Value::Kind::integer) {
             quantity = Quantity{entry.value.number, {}};
         } else if (entry.value.kind == Value::Kind::text) {
             try {
                 const Expression formula(entry.value.text, context.names);
                 if (formula.is_condition())
-                    context.problems.add(path, fmt::format("{} needs a value; \"{}\" is a condition", label, entry.value.text));
+                    context.problems.add(path, fmt::format("{} needs a value; \"{}\" is a condition", label,
+                                                           entry.value.text));
                 else
                     quantity = Quantity{formula(Vec3::Zero(), 0), formula.dimension()};
             } catch (const ExpressionError& error) {
                 report_expression(context, path, entry.value, label, error);
             }
         } else {
-            context.problems.add(path, fmt::format("{} needs a value; found {}", label, kind_name(entry.value.kind)),
-                                 "for example: spacing = \"1 m\"");
+            context.problems.add(
+                path, fmt::format("{} needs a value; found {}", label, kind_name(entry.value.kind)),
+                "for example: spacing = \"1 m\"");
         }
         if (!quantity) {
             context.broken_names.insert(entry.key);
             continue;
         }
-        std::string text = entry.value.kind == Value::Kind::text ? entry.value.text : fmt::format("{}", quantity->value);
+        std::string text =
+            entry.value.kind == Value::Kind::text ? entry.value.text : fmt::format("{}", quantity->value);
         for (const auto& [name, given] : overrides)
             if (name == entry.key) {
                 override_parameter(context, name, given, *quantity);
@@ -110,11 +116,13 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
             own.entries.push_back(entry);
             continue;
         }
-        const std::string shown = entry.value.kind == Value::Kind::array   ? fmt::format("[[{}]]", entry.key)
-                                  : entry.value.kind == Value::Kind::table ? fmt::format("[{}]", entry.key)
-                                                                           : fmt::format("{} = ...", entry.key);
+        const std::string shown = entry.value.kind == Value::Kind::array ? fmt::format("[[{}]]", entry.key)
+                                  : entry.value.kind == Value::Kind::table
+                                      ? fmt::format("[{}]", entry.key)
+                                      : fmt::format("{} = ...", entry.key);
         if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
-            const bool block = entry.value.kind == Value::Kind::array || entry.value.kind == Value::Kind::table;
+            const bool block =
+                entry.value.kind == Value::Kind::array || entry.value.kind == Value::Kind::table;
             std::string message = block ? fmt::format("unknown block {}", shown)
                                         : fmt::format("unknown key \"{}\" at the top of the file", entry.key);
             const auto near = nearest(entry.key, known);
@@ -129,20 +137,24 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
         }
         const KeyBlock& block = scene_block(entry.key);
         if (!block.available)
-            context.problems.add(entry.key, entry.place, fmt::format("{}: not available yet", block.title), "leave it out");
+            context.problems.add(entry.key, entry.place, fmt::format("{}: not available yet", block.title),
+                                 "leave it out");
         const bool tables = std::all_of(entry.value.items.begin(), entry.value.items.end(),
                                         [](const Value& item) { return item.kind == Value::Kind::table; });
         if (block.form == KeyBlock::Form::list ? entry.value.kind != Value::Kind::array || !tables
                                                : entry.value.kind != Value::Kind::table)
-            context.problems.add(entry.key, entry.place, fmt::format("{} stands where a block is expected", shown),
+            context.problems.add(entry.key, entry.place,
+                                 fmt::format("{} stands where a block is expected", shown),
                                  fmt::format("write {}", block.title));
     }
     BlockReader reader(context, own, top, "", "the scene");
     if (const auto version = reader.integer("version"); version && *version != 1)
-        reader.fail("version", fmt::format("version {} of the scene format is not known here", *version), "this program reads version = 1");
+        reader.fail("version", fmt::format("version {} of the scene format is not known here", *version),
+                    "this program reads version = 1");
     scene.title = reader.text("title").value_or(scene.file.stem().string());
     scene.about = reader.text("about").value_or("");
-    if (scene.title.find_first_of("\n\r\t") != std::string::npos) reader.fail("title", "title needs to be one line");
+    if (scene.title.find_first_of("\n\r\t") != std::string::npos)
+        reader.fail("title", "title needs to be one line");
 }
 
 }  // namespace
@@ -156,12 +168,14 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
 
     ReadContext context;
     // What is missing as a whole is missed at the end of the file.
-    const int lines = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + (text.ends_with('\n') ? 0 : 1);
+    const int lines =
+        static_cast<int>(std::count(text.begin(), text.end(), '\n')) + (text.ends_with('\n') ? 0 : 1);
     context.problems.stands_at("", {std::max(1, lines), 1, 1});
     read_top(document, context, scene);
     read_params(document, overrides, context, scene);
     read_blocks(document, context, scene);
-    if (std::none_of(scene.loads.begin(), scene.loads.end(), [](const LoadSpec& load) { return load.primary; }) &&
+    if (std::none_of(scene.loads.begin(), scene.loads.end(),
+                     [](const LoadSpec& load) { return load.primary; }) &&
         !scene.loads.empty())
         scene.loads.front().primary = true;
     check_scene(scene, context.problems);
@@ -177,7 +191,8 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) 
     if (std::filesystem::is_directory(file)) refuse("this is a folder", "name the scene file in it");
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
     if (!in)
-        refuse(fmt::format("cannot open it: {}", std::strerror(errno)), "`hibi new` writes a scene to start from");
+        refuse(fmt::format("cannot open it: {}", std::strerror(errno)),
+               "`hibi new` writes a scene to start from");
     // One byte more than is allowed is enough to refuse it; devices never end.
     std::string text(largest_scene_bytes + 1, '\0');
     text.resize(std::fread(text.data(), 1, text.size(), in.get()));

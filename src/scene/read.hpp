@@ -18,11 +18,11 @@ struct SceneError {
 /// Every mistake of a scene at once, sorted by place. what() is the finished text: for each
 /// file:line:column: error: message, the line, a caret with the hint.
 class SceneErrors : public std::runtime_error {
-  public:
+ public:
     SceneErrors(const std::string& file, const std::string& source, std::vector<SceneError> errors);
     const std::vector<SceneError>& errors() const { return errors_; }
 
-  private:
+ private:
     std::vector<SceneError> errors_;
 };
 
@@ -33,15 +33,15 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides =
 /// The same from text; `name` stands in the messages.
 Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides = {});
 
-/// The completed scene as TOML: every default filled in, SI units. Reading it gives the same scene, and writing
-/// that again the same text.
+/// The completed scene as TOML: every default filled in, SI units. Reading it gives the same scene, and
+/// writing that again the same text.
 std::string write_scene(const Scene& scene);
 
 /// SHA-256 of write_scene: the same for the same experiment, however it was written down.
 std::string scene_hash(const Scene& scene);
 
-/// Particles, bonds, supports and loads of a checked scene. Throws SceneErrors (without a place) for what only
-/// shows now, for instance a selection without a particle.
+/// Particles, bonds, supports and loads of a checked scene. Throws SceneErrors (without a place) for what
+/// only shows now, for instance a selection without a particle.
 Built<2> build(const Scene& scene);
 
 /// The constant part of what is recorded.

@@ -37,8 +37,10 @@ std::vector<BlockReader> list(const Value& document, ReadContext& context, const
 
 void read_model(BlockReader block, Scene& scene) {
     if (const auto dimension = block.integer("dimension")) {
-        if (*dimension == 3) block.fail("dimension", "[model] dimension: three dimensions are not available yet");
-        else if (*dimension != 2) block.fail("dimension", "[model] dimension needs 2 or 3");
+        if (*dimension == 3)
+            block.fail("dimension", "[model] dimension: three dimensions are not available yet");
+        else if (*dimension != 2)
+            block.fail("dimension", "[model] dimension needs 2 or 3");
     }
     if (const auto name = block.choice("assumption"))
         scene.assumption = *name == "plane strain" ? Assumption::plane_strain : Assumption::plane_stress;
@@ -55,8 +57,10 @@ void read_materials(const Value& document, ReadContext& context, Scene& scene) {
     for (const Entry& entry : value->entries) {
         const std::string path = fmt::format("material/{}", scene.materials.size());
         if (entry.value.kind != Value::Kind::table) {
-            context.problems.add(path, entry.place, fmt::format("[material] holds materials by name; found the key \"{}\"", entry.key),
-                                 "write [material.NAME] above it");
+            context.problems.add(
+                path, entry.place,
+                fmt::format("[material] holds materials by name; found the key \"{}\"", entry.key),
+                "write [material.NAME] above it");
             return;
         }
         BlockReader block(context, entry.value, scene_block("material"), path,
@@ -170,7 +174,7 @@ void read_value(BlockReader& block, LoadSpec& load) {
     const auto value = block.vector(*kind, true, load.kind != Load::Kind::force);
     for (int axis = 0; value && axis < 2; ++axis) {
         set(load.value[axis], value->at(axis));
-        load.driven[axis] = value->at(axis).has_value();
+        load.driven[axis] = load.kind != Load::Kind::force && value->at(axis).has_value();
     }
     if (load.kind != Load::Kind::force && value && !load.driven[0] && !load.driven[1])
         block.fail(*kind, fmt::format("[[load]] {}: both directions are free", *kind), "then it is no load");
@@ -214,7 +218,8 @@ void read_surroundings(const Value& document, ReadContext& context, Scene& scene
     if (auto block = single(document, context, "damping")) {
         scene.damping.emplace();
         if (const auto kind = block->one_of({"ratio", "rate"}, "value"))
-            (*kind == "ratio" ? scene.damping->damping.ratio : scene.damping->damping.rate) = block->quantity(*kind);
+            (*kind == "ratio" ? scene.damping->damping.ratio : scene.damping->damping.rate) =
+                block->quantity(*kind);
         scene.damping->until = block->moment("until");
     }
 }
@@ -266,8 +271,10 @@ void read_movie(const Value& document, ReadContext& context, MovieSpec& movie) {
     if (!block) return;
     set(movie.duration, block->quantity("duration"));
     if (const auto fps = block->integer("fps")) {
-        if (*fps < 1 || *fps > 240) block->fail("fps", "[movie] fps needs 1 to 240 frames per second");
-        else movie.fps = static_cast<int>(*fps);
+        if (*fps < 1 || *fps > 240)
+            block->fail("fps", "[movie] fps needs 1 to 240 frames per second");
+        else
+            movie.fps = static_cast<int>(*fps);
     }
     for (BlockReader& part : block->tables("slow")) {
         SlowSpec slow;
@@ -280,7 +287,8 @@ void read_movie(const Value& document, ReadContext& context, MovieSpec& movie) {
         for (std::size_t i = 0; i < formats->size(); ++i)
             if (formats->at(i) != "mp4")
                 block->fail(fmt::format("formats/{}", i),
-                            fmt::format("[movie] formats: \"{}\" is not available yet", formats->at(i)), "leave it out");
+                            fmt::format("[movie] formats: \"{}\" is not available yet", formats->at(i)),
+                            "leave it out");
 }
 
 }  // namespace

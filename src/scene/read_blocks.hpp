@@ -5,7 +5,8 @@
 
 namespace hibi {
 
-/// Fills a scene from the blocks of a document. What is wrong is told to context.problems, and keeps its default.
+/// Fills a scene from the blocks of a document. What is wrong is told to context.problems, and keeps its
+/// default.
 void read_blocks(const Value& document, ReadContext& context, Scene& scene);
 
 }  // namespace hibi

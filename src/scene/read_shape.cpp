@@ -7,7 +7,8 @@ std::optional<Shape<2>> read_shape(BlockReader& block, const std::string& key) {
         const auto corners = block.points(key);
         if (!corners) return {};
         if (corners->size() != 2) {
-            block.fail(key, "box needs two corners", "for example: box = [[\"0 m\", \"0 m\"], [\"40 m\", \"20 m\"]]");
+            block.fail(key, "box needs two corners",
+                       "for example: box = [[\"0 m\", \"0 m\"], [\"40 m\", \"20 m\"]]");
             return {};
         }
         if (!(corners->at(0).array() < corners->at(1).array()).all()) {
@@ -30,8 +31,10 @@ std::optional<Shape<2>> read_shape(BlockReader& block, const std::string& key) {
         if (!table) return {};
         const auto centre = table->point("centre");
         const auto inner = table->quantity("inner"), outer = table->quantity("outer");
-        if (inner && !(*inner > 0)) table->fail("inner", "ring inner needs to be above 0", "without a hole it is a disc");
-        if (inner && outer && !(*inner < *outer)) table->fail("outer", "ring outer needs to be larger than inner");
+        if (inner && !(*inner > 0))
+            table->fail("inner", "ring inner needs to be above 0", "without a hole it is a disc");
+        if (inner && outer && !(*inner < *outer))
+            table->fail("outer", "ring outer needs to be larger than inner");
         if (!centre || !inner || !outer) return {};
         return Shape<2>{Ring<2>{*centre, *inner, *outer}};
     }

@@ -19,9 +19,9 @@ namespace hibi {
 
 /// A `where` of the scene: a condition on the reference position, and perhaps one body.
 struct Selection {
-    std::string text;                               ///< as written; empty: everything
-    std::function<bool(const Vec3& X)> condition{}; ///< empty: everything
-    int body = -1;                                  ///< index of a body, or -1 for all
+    std::string text;                                ///< as written; empty: everything
+    std::function<bool(const Vec3& X)> condition{};  ///< empty: everything
+    int body = -1;                                   ///< index of a body, or -1 for all
 
     bool operator()(const Vec3& X, int its_body) const {
         return (body < 0 || body == its_body) && (!condition || condition(X));
@@ -37,10 +37,10 @@ struct Parameter {
 struct BodySpec {
     std::string name, material;
     Shape<2> shape;
-    Field spacing;                             ///< constant (m)
+    Field spacing;  ///< constant (m)
     std::vector<std::string> bonded_to{};
-    std::array<Field, 2> velocity{};           ///< initial (m/s); may vary over x, y
-    double spin = 0;                           ///< initial, about the centre of mass (rad/s)
+    std::array<Field, 2> velocity{};  ///< initial (m/s); may vary over x, y
+    double spin = 0;                  ///< initial, about the centre of mass (rad/s)
 };
 
 struct FixSpec {
@@ -52,13 +52,13 @@ struct FixSpec {
 struct LoadSpec {
     std::string name;
     std::optional<Selection> where{};
-    std::optional<std::string> face{};         ///< left, right, bottom, top of `face_body`
+    std::optional<std::string> face{};  ///< left, right, bottom, top of `face_body`
     int face_body = 0;
     Load::Kind kind = Load::Kind::force;
     std::array<Field, 3> value{};
     std::array<bool, 3> driven{};
-    double ramp = 0;                           ///< (s)
-    std::optional<Moment> until{};             ///< releases it
+    double ramp = 0;                ///< (s)
+    std::optional<Moment> until{};  ///< releases it
     bool primary = false;
     bool no_fail = false;
 };
@@ -69,19 +69,19 @@ struct DampingSpec {
 };
 
 struct RunSpec {
-    std::optional<Moment> until{};             ///< absent: max_time
-    double max_time = 0;                       ///< (s), required
+    std::optional<Moment> until{};  ///< absent: max_time
+    double max_time = 0;            ///< (s), required
     std::optional<double> time_step{}, time_step_factor{};
 };
 
 struct SlowSpec {
     Moment around;
-    double span = 0;                           ///< (s); a fifth of it before the event
+    double span = 0;  ///< (s); a fifth of it before the event
     double rate = 1;
 };
 
 struct MovieSpec {
-    double duration = 12;                      ///< of the whole film (s)
+    double duration = 12;  ///< of the whole film (s)
     int fps = 25;
     std::vector<SlowSpec> slow{};
     int frames() const { return std::max(1, static_cast<int>(duration * fps + 0.5)); }
@@ -94,8 +94,8 @@ struct Scene {
     std::vector<Parameter> params;
     int dimension = 2;
     Assumption assumption = Assumption::plane_stress;
-    double thickness = 1;                      ///< (m)
-    double influence = 2.1;                    ///< r_e / l0
+    double thickness = 1;    ///< (m)
+    double influence = 2.1;  ///< r_e / l0
     Elasticity elasticity = Elasticity::moment_matched;
     std::vector<Material> materials;
     std::vector<BodySpec> bodies;
@@ -115,7 +115,8 @@ struct Built {
     Model<Dim> model;
     Physics physics;
     std::vector<std::array<Vec3, 2>> notches;  ///< segments, for drawing
-    std::vector<double> lattice_area_error;    ///< per body: area of its particles over area of its shape, minus 1
+    std::vector<double>
+        lattice_area_error;  ///< per body: area of its particles over area of its shape, minus 1
 };
 
 }  // namespace hibi

@@ -9,9 +9,9 @@
 
 namespace hibi {
 
-/// A cantilever as it might have been recorded, made from formulas: `columns` x `rows` particles 1 m apart, clamped at the
-/// left, pushed down at the right; bonds between the first two columns break one after the other from the top, the
-/// last one at `separation`; then the right part falls.
+/// A cantilever as it might have been recorded, made from formulas: `columns` x `rows` particles 1 m apart,
+/// clamped at the left, pushed down at the right; bonds between the first two columns break one after the
+/// other from the top, the last one at `separation`; then the right part falls.
 struct RecordedCantilever {
     int columns = 10, rows = 5;
     double end = 2, first_break = 1, separation = 1.5;  // (s)
@@ -50,7 +50,8 @@ struct RecordedCantilever {
     double broken_at(const Topology& t, int bond) const {
         const Vec3 &a = t.reference_position[t.first[bond]], &b = t.reference_position[t.second[bond]];
         if ((a.x() < 1) == (b.x() < 1)) return std::numeric_limits<double>::infinity();
-        const double depth = (rows - 0.5 - std::max(a.y(), b.y())) / std::max(1, rows - 1);  // 0 at the top, 1 at the foot
+        const double depth =
+            (rows - 0.5 - std::max(a.y(), b.y())) / std::max(1, rows - 1);  // 0 at the top, 1 at the foot
         return first_break + (separation - first_break) * std::clamp(depth, 0.0, 1.0);
     }
 
@@ -60,7 +61,8 @@ struct RecordedCantilever {
         s.step = state;
         const double fall = s.time > separation ? 20 * (s.time - separation) * (s.time - separation) : 0;
         for (const Vec3& X : t.reference_position) {
-            const double along = std::max(0.0, X.x() - 0.5) / columns, load = std::min(s.time, separation) / separation;
+            const double along = std::max(0.0, X.x() - 0.5) / columns,
+                         load = std::min(s.time, separation) / separation;
             const double drop = 0.18 * columns * load * along * along, turn = 0.36 * load * along;
             const double height = X.y() - rows / 2.0;
             s.displacement.push_back({turn * height, -drop - (X.x() > 1 ? fall : 0.0), 0});
@@ -81,7 +83,8 @@ struct RecordedCantilever {
     Scene scene() const {
         Scene scene;
         scene.title = "Cantilever";
-        scene.materials = {{.name = "concrete", .density = 2300, .youngs_modulus = 2.1e8, .poissons_ratio = 0.3}};
+        scene.materials = {
+            {.name = "concrete", .density = 2300, .youngs_modulus = 2.1e8, .poissons_ratio = 0.3}};
         scene.materials[0].break_strain = 0.1;
         scene.view.width = 320;
         scene.view.height = 180;
@@ -97,7 +100,8 @@ struct RecordedCantilever {
         writer.history_header({"tip"}, 2);
         std::vector<Break> breaks;
         for (int b = 0; b < static_cast<int>(t.first.size()); ++b)
-            if (std::isfinite(broken_at(t, b))) breaks.push_back({broken_at(t, b), b, t.first[b], t.second[b]});
+            if (std::isfinite(broken_at(t, b)))
+                breaks.push_back({broken_at(t, b), b, t.first[b], t.second[b]});
         std::ranges::stable_sort(breaks, {}, &Break::time);
         for (int k = 0; k < states; ++k) {
             const Snapshot s = snapshot(t, k);

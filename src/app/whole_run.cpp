@@ -1,0 +1,75 @@
+#include "app/whole_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hibi {
+
+namespace {
+
+double largest_spacing(const Topology& topology) {
+    return topology.spacing.empty() ? 0 : *std::ranges::max_element(topology.spacing);
+}
+
+/// Grows the box [low, high] by a point if that is finite.
+void include(std::array<double, 4>& box, double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
+    box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y)};
+}
+
+}  // namespace
+
+int last_counting_state(const RunReader& run) {
+    const int last = static_cast<int>(run.states().size()) - 1;
+    const std::optional<Event>& separation = run.summary().events.separation;
+    if (!separation) return last;
+    for (int s = 0; s < last; ++s)
+        if (run.states()[s].time >= separation->time) return s;
+    return last;
+}
+
+std::array<double, 4> body_window(const RunReader& run, const View& view) {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    std::array<double, 4> box{far, far, -far, -far};
+    const Topology& topology = run.topology();
+    for (const Vec3& X : topology.reference_position) include(box, X.x(), X.y());
+    for (int s = 0; s <= last_counting_state(run); ++s) {
+        if (view.magnify == 1) {
+            const RunReader::Extent extent = run.extent(s);
+            include(box, extent.low.x(), extent.low.y());
+            include(box, extent.high.x(), extent.high.y());
+            continue;
+        }
+        const Snapshot snapshot = run.read(s);
+        for (int i = 0; i < snapshot.count(); ++i) {
+            const Vec3 p = topology.reference_position[i] + view.magnify * snapshot.displacement[i];
+            include(box, p.x(), p.y());
+        }
+    }
+    const double radius = largest_spacing(topology) / 2;
+    return {box[0] - radius, box[1] - radius, box[2] + radius, box[3] + radius};
+}
+
+std::array<double, 2> colour_range(const RunReader& run, const std::string& field) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int s = 0; s <= last_counting_state(run); ++s) {
+        const RunReader::Extent extent = run.extent(s);
+        const auto found = extent.range.find(field);
+        if (found == extent.range.end()) continue;
+        for (const double v : found->second)
+            if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+    if (!(low <= high)) low = high = 0;
+    if (field_label(field).is_signed) {
+        high = std::max(std::abs(low), std::abs(high));
+        low = -high;
+    } else {
+        low = std::min(low, 0.0);
+        high = std::max(high, 0.0);
+    }
+    if (high <= low) high = low + 1;
+    return {low, high};
+}
+
+}  // namespace hibi

@@ -1,0 +1,21 @@
+#pragma once
+#include <array>
+#include <string>
+
+#include "image/view.hpp"
+#include "record/run_folder.hpp"
+
+namespace hibi {
+
+/// The last state that counts for what is fixed over a run: the first at or after separation, else the very
+/// last.
+int last_counting_state(const RunReader& run);
+
+/// Box around all particles in all states that count (m), discs included: x0, y0, x1, y1.
+std::array<double, 4> body_window(const RunReader& run, const View& view);
+
+/// Range of the coloured field over all states that count, from the finite values. Signed fields: symmetric
+/// about zero; fields without negative values: from zero. Never empty.
+std::array<double, 2> colour_range(const RunReader& run, const std::string& field);
+
+}  // namespace hibi
