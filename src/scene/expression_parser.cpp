@@ -342,7 +342,7 @@ class Parser {
         std::string name = name_at(begin);
         int bytes = static_cast<int>(name.size());
         if (text_.compare(begin, 2, "µ") == 0 || text_.compare(begin, 2, "μ") == 0) {
-            name = "u" + name_at(begin + 2);
+            name = name_at(begin + 2).insert(0, 1, 'u');
             bytes = static_cast<int>(name.size()) + 1;
         }
         if (name.empty() || is_word(name)) return false;

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <limits>
+
+#include "app/draw.hpp"
+#include "app/marks.hpp"
+#include "app/picture.hpp"
+#include "app/run_drawing.hpp"
+#include "image/layout.hpp"
+#include "image/overlay.hpp"
+#include "image/png.hpp"
+#include "scene/read.hpp"
+
+namespace hibi {
+
+void draw_setup(const Scene& scene, const std::filesystem::path& png, const DrawOptions& options) {
+    const Topology topology = topology_of(scene, build(scene));
+    View view = scene.view;
+    view.map = "viridis";  // stands for the body's number here, not for a field
+    view.show = {"title", "scale_bar", "supports", "loads"};
+    const std::vector<Mark> marks =
+        find_marks(topology, scene.view.shows("supports"), scene.view.shows("loads"));
+    const Overlay overlay(view, {.title = scene.title, .subtitle = describe(scene, topology)});
+    Renderer renderer(view, topology, options.renderer);
+
+    Picture2 picture;
+    constexpr double far = std::numeric_limits<double>::infinity();
+    std::array<double, 4> box{far, far, -far, -far};
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < topology.reference_position.size(); ++i) {
+        const Vec3& X = topology.reference_position[i];
+        const double r = topology.spacing[i] / 2;
+        box = {std::min(box[0], X.x() - r), std::min(box[1], X.y() - r), std::max(box[2], X.x() + r),
+               std::max(box[3], X.y() + r)};
+        x.push_back(X.x());
+        y.push_back(X.y());
+        picture.value.push_back((static_cast<float>(topology.body[i]) + 0.5f) /
+                                static_cast<float>(topology.body_names.size()));
+    }
+    picture.x.assign(x.begin(), x.end());
+    picture.y.assign(y.begin(), y.end());
+    picture.intact = drawn_bonds(topology, view.bonds);
+    picture.camera =
+        camera_for(view.window ? *view.window : box, view.window.has_value(), overlay.plot(), marks, view);
+
+    Image image(view.width, view.height);
+    renderer.draw(picture, image);
+    OverlayFrame over{.pixels_per_metre = picture.camera.scale, .symbols = {}};
+    const double unit = lay_out(view.width, view.height, {}).unit;
+    for (const Mark& mark : marks) over.symbols.push_back(place_mark(mark, x, y, picture.camera, 1, unit));
+    for (const std::array<Vec3, 2>& cut : topology.notches) {
+        Symbol notch;
+        notch.kind = Symbol::Kind::notch;
+        for (const Vec3& p : cut)
+            notch.points.push_back({picture.camera.pixel_x(p.x()), picture.camera.pixel_y(p.y())});
+        over.symbols.push_back(notch);
+    }
+    overlay.draw(image, over);
+    write_png(png, image, {{"Title", scene.title}, {"Software", "hibi " HIBI_VERSION}}, true);
+}
+
+}  // namespace hibi

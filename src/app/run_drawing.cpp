@@ -1,0 +1,134 @@
+#include "app/run_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/whole_run.hpp"
+#include "base/units.hpp"
+#include "image/layout.hpp"
+
+namespace hibi {
+
+namespace {
+
+/// A column of the history at any moment, straight lines between its rows.
+template <class Value>
+double at_time(const History& history, double time, Value&& value) {
+    const std::vector<HistoryRow>& rows = history.rows;
+    if (rows.empty()) return 0;
+    const auto after = std::ranges::upper_bound(rows, time, {}, &HistoryRow::time);
+    if (after == rows.begin()) return value(rows.front());
+    if (after == rows.end()) return value(rows.back());
+    const HistoryRow &a = *(after - 1), &b = *after;
+    return value(a) + (time - a.time) / (b.time - a.time) * (value(b) - value(a));
+}
+
+/// Driven particles: what they are made to do grows steadily, while their reaction trembles.
+double mark_quantity(const Topology& topology, int load, const HistoryRow& row) {
+    const bool by_force = topology.loads[load].kind == "force" || topology.loads[load].kind == "pressure";
+    const std::vector<double>& values = by_force ? row.loads : row.displacements;
+    return load < static_cast<int>(values.size()) ? values[load] : 0;
+}
+
+/// A signed field without a range of the user's is shown by the map made for it.
+View shown_view(const Scene& scene) {
+    View view = scene.view;
+    if (!view.range && field_label(view.field).is_signed) view.map = "diverging";
+    return view;
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene, const Topology& topology) {
+    std::string text =
+        fmt::format("{} particles · {} bonds", topology.reference_position.size(), topology.first.size());
+    for (const Material& m : scene.materials)
+        text += fmt::format(" · {}: E = {}, ν = {:g}", m.name, format_si(m.youngs_modulus, "Pa", 3, true),
+                            m.poissons_ratio);
+    return text + (scene.assumption == Assumption::plane_stress ? " · plane stress" : " · plane strain");
+}
+
+RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererOptions& options)
+    : run_(run),
+      view_(shown_view(scene)),
+      range_(scene.view.range ? *scene.view.range : colour_range(run, scene.view.field)),
+      until_(run.summary().events.separation ? run.summary().events.separation->time
+                                             : std::numeric_limits<double>::infinity()),
+      plan_(
+          plan_film(scene.movie, run.summary().events, run.states().front().time, run.states().back().time)),
+      source_(run, view_, range_),
+      overlay_(view_, content(scene)),
+      renderer_(view_, run.topology(), options),
+      marks_(find_marks(run.topology(), view_.shows("supports"), view_.shows("loads"))),
+      camera_(camera_for(view_.window ? *view_.window : body_window(run, view_), view_.window.has_value(),
+                         overlay_.plot(), marks_, view_)),
+      unit_(lay_out(view_.width, view_.height, {}).unit) {
+    for (int k = 0; k < static_cast<int>(run.topology().loads.size()); ++k) {
+        double largest = 0;
+        for (const HistoryRow& row : run.history().rows)
+            if (row.time <= until_)
+                largest = std::max(largest, std::abs(mark_quantity(run.topology(), k, row)));
+        largest_.push_back(largest);
+    }
+}
+
+void RunDrawing::draw(int frame, Image& image) {
+    const double time = plan_.time[frame];
+    Picture2 picture = source_.at(time);
+    picture.camera = camera_;
+    for (std::size_t k = 0; k < picture.broken.size(); ++k)
+        picture.freshness[k] =
+            static_cast<float>(plan_.freshness(frame, run_.broken_at()[picture.broken[k]]));
+    renderer_.draw(picture, image);
+
+    OverlayFrame over{.time = time,
+                      .load = at_time(run_.history(), time, [](const HistoryRow& row) { return row.load; }),
+                      .broken = static_cast<int>(picture.broken.size()),
+                      .speed = plan_.speed(frame),
+                      .pixels_per_metre = camera_.scale,
+                      .symbols = {}};
+    if (const std::optional<FilmPlan::Label> label = plan_.label(frame)) {
+        over.event = label->text;
+        over.event_strength = label->strength;
+    }
+    for (const Mark& mark : marks_) {
+        const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
+        over.symbols.push_back(place_mark(mark, source_.x(), source_.y(), camera_, size, unit_));
+    }
+    overlay_.draw(image, over);
+}
+
+double RunDrawing::load_size(int load, double time) const {
+    if (largest_[load] <= 0) return 0;
+    const auto quantity = [&](const HistoryRow& row) { return mark_quantity(run_.topology(), load, row); };
+    return at_time(run_.history(), time, quantity) / largest_[load];
+}
+
+OverlayContent RunDrawing::content(const Scene& scene) const {
+    const FieldLabel field = field_label(view_.field);
+    OverlayContent c;
+    c.title = scene.title;
+    c.subtitle = describe(scene, run_.topology());
+    c.colour_bar = {field.title, field.unit, range_[0], range_[1], view_.map};
+    c.has_breaks = std::ranges::any_of(scene.materials, &Material::can_break);
+    c.time_end = run_.states().back().time;
+    c.time_resolution = plan_.smallest_step();
+    if (run_.topology().loads.empty()) return c;
+    c.load_title = std::string("Load");  // (g++ 12 warns wrongly of an assigned literal here)
+    c.load_unit = std::string("N");
+    c.curve = {.x_title = "Displacement", .x_unit = "m", .y_title = "Load", .y_unit = "N"};
+    for (const HistoryRow& row : run_.history().rows) {
+        if (row.time > until_) break;
+        c.load_max = std::max(c.load_max, std::abs(row.load));
+        c.curve.time.push_back(row.time);
+        c.curve.x.push_back(row.displacement);
+        c.curve.y.push_back(row.load);
+        if (c.has_breaks) c.curve.broken.push_back(row.broken);
+    }
+    return c;
+}
+
+}  // namespace hibi
