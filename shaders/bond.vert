@@ -5,7 +5,7 @@ uniform vec2 picture;
 uniform float guard;
 uniform float unit;                  // pixels in this picture per pixel in one 1080 high
 uniform isamplerBuffer bonds;        // the two particles of each
-uniform samplerBuffer particles;     // centre x, y and half the spacing (pixels), place in the colour map 0..1
+uniform samplerBuffer particles;     // centre, half the spacing (pixels), place in the colour map 0..1
 
 out float across;                    // from the bond (pixels)
 flat out float half_width;           // (pixels)

@@ -6,12 +6,12 @@ uniform float guard;
 uniform float unit;                  // pixels in this picture per pixel in one 1080 high
 uniform isamplerBuffer bonds;        // the two particles of each
 uniform samplerBuffer states;        // freshness 1..0, rest length (pixels)
-uniform samplerBuffer particles;     // centre x, y and half the spacing (pixels), place in the colour map 0..1
+uniform samplerBuffer particles;     // centre, half the spacing (pixels), place in the colour map 0..1
 uniform vec3 fresh_colour, old_colour;
 
 flat out vec4 axis;                  // middle and half the straight part of the capsule, as a vector (pixels)
 flat out float half_width;           // (pixels)
-flat out float halo;                 // width of the dark border (pixels)
+flat out float halo;                 // width of the border in the background's colour (pixels)
 flat out vec4 colour;
 
 // Two triangles per bond: the corners -1..1 of vertices 0..5.
@@ -28,8 +28,10 @@ void main() {
     float spacing = a.z + b.z, stretched = length(bond);
     vec2 along = vec2(-bond.y, bond.x) / max(stretched, 1e-6), normal = vec2(along.y, -along.x);
     // Longer bonds cross the same face beside its middle: the longer, the slighter their mark.
-    float rank = 1.0 - 0.6 * smoothstep(1.1, 1.4, state.y / spacing) - 0.2 * smoothstep(1.5, 1.9, state.y / spacing);
-    float width = rank * clamp(0.16 * spacing, max(1.4 * unit, 1.0), max(5.0 * unit, 1.4)) * (1.0 + 0.5 * state.x);
+    float reached = state.y / spacing;
+    float rank = 1.0 - 0.6 * smoothstep(1.1, 1.4, reached) - 0.2 * smoothstep(1.5, 1.9, reached);
+    float width = clamp(0.16 * spacing, max(1.4 * unit, 1.0), max(5.0 * unit, 1.4));
+    width *= rank * (1.0 + 0.5 * state.x);
     half_width = 0.5 * max(width, 1.0);
     halo = min(1.2 * unit, 0.06 * spacing);
     float half_length = max(0.5 * spacing * rank - half_width, 0.0);

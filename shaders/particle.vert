@@ -4,7 +4,7 @@
 uniform vec2 picture;      // size (pixels)
 uniform float guard;       // how far the viewport reaches beyond the picture (pixels)
 uniform bool squares;      // two triangles per particle instead of a point sprite
-uniform samplerBuffer particles;  // centre x, y and half the spacing (pixels), place in the colour map 0..1
+uniform samplerBuffer particles;  // centre, half the spacing (pixels), place in the colour map 0..1
 uniform sampler2D colours;
 
 flat out vec3 disc;        // centre, radius (pixels)

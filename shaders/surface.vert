@@ -1,11 +1,11 @@
 #version 330 core
-// What fills the gaps between the discs: a strip as wide as the particle spacing along each intact bond between
+// What fills the gaps between the discs: a strip as wide as the spacing along each intact bond between
 // neighbours. A broken bond has none, so a crack opens as a gap in the body.
 
 uniform vec2 picture;
 uniform float guard;
 uniform isamplerBuffer bonds;        // the two particles of each
-uniform samplerBuffer particles;     // centre x, y and half the spacing (pixels), place in the colour map 0..1
+uniform samplerBuffer particles;     // centre, half the spacing (pixels), place in the colour map 0..1
 uniform sampler2D colours;
 
 out float along;                     // 0 at the first particle .. 1 at the second

@@ -18,6 +18,15 @@ void include(std::array<double, 4>& box, double x, double y) {
     box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y)};
 }
 
+/// The next round number away from zero, so that colour bars end on one and similar runs share a range.
+double rounded_up(double v) {
+    if (v == 0) return 0;
+    const double power = std::pow(10, std::floor(std::log10(std::abs(v))));
+    for (const double round : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0})
+        if (std::abs(v) <= round * power * (1 + 1e-9)) return std::copysign(round * power, v);
+    return v;
+}
+
 }  // namespace
 
 int last_counting_state(const RunReader& run) {
@@ -61,6 +70,8 @@ std::array<double, 2> colour_range(const RunReader& run, const std::string& fiel
             if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
     }
     if (!(low <= high)) low = high = 0;
+    low = rounded_up(low);
+    high = rounded_up(high);
     if (field_label(field).is_signed) {
         high = std::max(std::abs(low), std::abs(high));
         low = -high;

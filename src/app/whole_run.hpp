@@ -14,8 +14,8 @@ int last_counting_state(const RunReader& run);
 /// Box around all particles in all states that count (m), discs included: x0, y0, x1, y1.
 std::array<double, 4> body_window(const RunReader& run, const View& view);
 
-/// Range of the coloured field over all states that count, from the finite values. Signed fields: symmetric
-/// about zero; fields without negative values: from zero. Never empty.
+/// Range of the coloured field over all states that count, from the finite values, ends rounded outward.
+/// Signed fields: symmetric about zero; fields without negative values: from zero. Never empty.
 std::array<double, 2> colour_range(const RunReader& run, const std::string& field);
 
 }  // namespace hibi

@@ -118,7 +118,7 @@ struct Encoder::Impl {
             const int error = avcodec_receive_packet(codec.get(), packet.get());
             if (error == AVERROR(EAGAIN) || error == AVERROR_EOF) return;
             check(error, "encode");
-            packet->duration = 1;  // x264 leaves it out; the rate would then be guessed wrongly
+            packet->duration = 1;  // x264 leaves it out, and the rate would have to be guessed
             av_packet_rescale_ts(packet.get(), codec->time_base, output->streams[0]->time_base);
             check(av_interleaved_write_frame(output.get(), packet.get()), "write");
         }

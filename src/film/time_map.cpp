@@ -19,7 +19,7 @@ std::vector<Piece> with_slow_spans(double begin, double end, const std::vector<S
     std::vector<double> borders{end};
     for (const SlowSpan& span : slow)
         for (const double t : {span.begin, span.end})
-            if (t > begin && t < end) borders.push_back(t);
+            if (t < end) borders.push_back(t);
     std::ranges::sort(borders);
 
     std::vector<Piece> pieces;

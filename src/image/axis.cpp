@@ -44,13 +44,27 @@ double round_below(double limit) {
 Ticks round_ticks(double low, double high, int most) {
     Ticks ticks;
     if (!(high > low)) return {{low}, 0};
-    // The first round step that gives few enough: begin well below, and go up 1, 2, 5, 10, ...
-    double step = round_below((high - low) / (2.0 * most));
-    const auto first = [&] { return std::ceil(low / step - 1e-9); };
-    const auto last = [&] { return std::floor(high / step + 1e-9); };
-    while (last() - first() + 1 > most) step = round_below(2.5 * step);
-    for (double k = first(); k <= last(); ++k) ticks.at.push_back(k * step);
+    // Steps rising from one that gives far too many ticks. The first plain one (1, 2, 5) that gives few
+    // enough is taken, unless one of the next makes ticks of both ends.
+    double step = 0;
+    const auto ticks_with = [&](double s) {
+        return std::floor(high / s + 1e-9) - std::ceil(low / s - 1e-9) + 1;
+    };
+    const auto whole = [](double v) { return std::abs(v - std::round(v)) < 1e-6; };
+    double power = std::pow(10, std::floor(std::log10((high - low) / (10.0 * most))));
+    for (int tries = 0; tries < 20; ++tries, power *= tries % 5 == 0 ? 10 : 1) {
+        constexpr double leads[] = {1, 2, 2.5, 4, 5};
+        const double lead = leads[tries % 5], candidate = lead * power;
+        if (ticks_with(candidate) > most) continue;
+        const bool plain = lead != 2.5 && lead != 4;
+        const bool ends = whole(low / candidate) && whole(high / candidate);
+        if (ends || (plain && step == 0)) step = candidate;
+        if (ends || (step > 0 && candidate > 2.6 * step)) break;
+    }
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+        ticks.at.push_back(k * step);
     ticks.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+    if (!whole(step * std::pow(10, ticks.decimals))) ++ticks.decimals;  // 2.5
     return ticks;
 }
 

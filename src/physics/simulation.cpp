@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "base/parallel.hpp"
@@ -324,18 +325,21 @@ template <int Dim>
 LoadReading Simulation<Dim>::read(int l) const {
     const Load& load = physics_.loads[l];
     const Vec<Dim> direction = load.direction.template head<Dim>();
+    // Of a face only the outermost particles count: the layers behind it carry shares of the other sign.
+    std::vector<double> share(load.particles.size(), 1);
+    for (std::size_t k = 0; k < load.share.size(); ++k)
+        share[k] = load.kind == Load::Kind::pressure ? load.share[k].template head<Dim>().dot(direction)
+                                                     : load.share[k].x();
+    const double total = std::accumulate(share.begin(), share.end(), 0.0);
     LoadReading reading;
-    double weights = 0;
+    int counted = 0;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
-        const int i = load.particles[k];
-        double weight = 1;
-        if (load.kind == Load::Kind::force) weight = load.share[k].x();
-        if (load.kind == Load::Kind::pressure) weight = load.share[k].template head<Dim>().dot(direction);
-        weights += weight;
-        reading.displacement += weight * model_.particles.displacement[i].dot(direction);
         if (!loads_[l].force.empty()) reading.load += loads_[l].force[k].dot(direction);
+        if (share[k] * total <= 0) continue;
+        reading.displacement += model_.particles.displacement[load.particles[k]].dot(direction);
+        ++counted;
     }
-    reading.displacement /= weights;
+    reading.displacement /= std::max(counted, 1);
     for (const Driven& d : driven_)
         if (d.load == l) reading.load -= model_.particles.force[d.particle][d.axis] * direction[d.axis];
     return reading;

@@ -26,7 +26,8 @@ struct Energies {
 
 struct LoadReading {
     double load = 0;  ///< applied total along Load::direction, or the reaction of driven particles (N)
-    double displacement = 0;  ///< mean over the particles, weighted by their share, along Load::direction (m)
+    double displacement =
+        0;  ///< mean over the particles, of a face over its outermost, along Load::direction (m)
 };
 
 /// A run that cannot go on.

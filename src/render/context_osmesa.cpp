@@ -51,6 +51,12 @@ class OsmesaContext : public Context {
 
 }  // namespace
 
+#ifdef __SANITIZE_ADDRESS__
+// Mesa 22.3 never frees the few bytes that describe OSMesa's own picture, once per context.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+#endif
+
 std::unique_ptr<Context> make_osmesa_context() { return std::make_unique<OsmesaContext>(); }
 
 }  // namespace hibi

@@ -9,7 +9,8 @@ class Context;
 // Every OpenGL function the renderer calls, without its prefix.
 #define HIBI_GL_FUNCTIONS(X)                                                                                 \
     X(ActiveTexture)                                                                                         \
-    X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer) X(BindTexture) X(BindVertexArray)   \
+    X(AttachShader)                                                                                          \
+    X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer) X(BindTexture) X(BindVertexArray)                   \
         X(BlendFuncSeparate) X(BufferData) X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) \
             X(CreateProgram) X(CreateShader) X(DrawArrays) X(Enable) X(Disable) X(FramebufferRenderbuffer)   \
                 X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays)       \

@@ -33,8 +33,12 @@ struct Picture2 {
     std::vector<float> freshness;  ///< per broken bond: 1 just broken .. 0 old trace
 };
 
-/// Draws particles, intact and broken bonds on the theme's background; not thread-safe, and it must be used
-/// on the thread that made it. Errors: std::runtime_error naming the library or the shader.
+/// Draws particles, intact and broken bonds on the theme's background. Intact bonds between neighbours also
+/// fill the body between its discs, so a crack, a notch or a flying piece shows as a gap; their lines fade
+/// out where particles lie closer than 24 to 12 pixels. A broken bond is a mark across its middle, the longer
+/// the bond the slighter, which fades while its ends part by 0.25 to 1.5 spacings. Widths grow with the
+/// picture's height. Not thread-safe, and it must be used on the thread that made it. Errors:
+/// std::runtime_error naming the library or the shader.
 class Renderer {
  public:
     Renderer(const View& view, const Topology& topology, const RendererOptions& options = {});

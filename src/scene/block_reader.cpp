@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cctype>
+#include <cmath>
 
 #include "scene/suggest.hpp"
 
@@ -225,7 +226,11 @@ std::optional<Field> BlockReader::field_of(const std::string& key, const Value& 
                                            const std::string& sub_path, const std::string& unit,
                                            bool in_space, bool in_time) {
     context_.problems.stands_at(sub_path, value.place);
-    if (value.kind == Value::Kind::number || value.kind == Value::Kind::integer) return Field(value.number);
+    if (value.kind == Value::Kind::number || value.kind == Value::Kind::integer) {
+        if (std::isfinite(value.number)) return Field(value.number);
+        context_.problems.add(sub_path, fmt::format("{} needs a finite number", label(key)), hint(key));
+        return {};
+    }
     if (value.kind != Value::Kind::text) {
         wrong(key, value, sub_path, dimension_words(unit));
         return {};
@@ -324,8 +329,10 @@ std::optional<std::vector<Vec<2>>> BlockReader::points(const std::string& key) {
 std::optional<Moment> BlockReader::moment(const std::string& key) {
     const Value* value = find(key, KeyKind::moment);
     if (!value) return {};
-    if (value->kind == Value::Kind::number || value->kind == Value::Kind::integer)
-        return Moment{{}, value->number};
+    if (value->kind == Value::Kind::number || value->kind == Value::Kind::integer) {
+        if (const auto time = number_of(key, *value, path(key), "s")) return Moment{{}, *time};
+        return {};
+    }
     const std::string wanted = "an event or a time";
     if (value->kind != Value::Kind::text) {
         wrong(key, *value, path(key), wanted);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "physics/time_step.hpp"
 #include "physics/weights.hpp"
 
 namespace hibi {
@@ -145,22 +146,28 @@ std::vector<int> select(const Model<2>& model, const Selection& selection, const
     return particles;
 }
 
-/// The particles that carry a face of a box: those that reach it with their bonds, and, per particle, the
-/// part of its area vector that points out of that face (m^2). The second row's is negative and belongs to
-/// it.
+Vec3 outward_of(const std::string& face) {
+    return face == "left"     ? Vec3(-1, 0, 0)
+           : face == "right"  ? Vec3(1, 0, 0)
+           : face == "bottom" ? Vec3(0, -1, 0)
+                              : Vec3(0, 1, 0);
+}
+
+/// The particles that carry a face of a box, and, per particle, the part of its area vector that points out
+/// of that face (m^2). A particle that the face takes neighbours from has other weights, and so has every
+/// particle bonded to it: the vectors differ from zero up to two influence radii deep, and only all together
+/// they are the face.
 void select_face(const Model<2>& model, const std::vector<Vec<2>>& areas, const Body<2>& body,
-                 const std::string& face, Load& load, std::vector<double>& share) {
+                 const Vec<2>& outward, Load& load, std::vector<double>& share) {
     const auto& box = std::get<Box<2>>(body.shape.form);
-    const int axis = face == "left" || face == "right" ? 0 : 1;
-    const bool high = face == "right" || face == "top";
+    const Vec<2> size = box.high - box.low;
+    const double depth = std::min(2 * model.influence * body.spacing, std::abs(size.dot(outward)) / 2);
+    const Vec<2> corner = outward.sum() > 0 ? box.high : box.low;
     for (int i = body.begin; i < body.end; ++i) {
-        const double X = model.particles.reference_position[i][axis];
-        if ((high ? box.high[axis] - X : X - box.low[axis]) >= model.influence * body.spacing) continue;
+        if ((corner - model.particles.reference_position[i]).dot(outward) >= depth) continue;
         load.particles.push_back(i);
-        share.push_back((high ? 1 : -1) * areas[i][axis]);
+        share.push_back(areas[i].dot(outward));
     }
-    load.direction = Vec3::Zero();
-    load.direction[axis] = high ? 1 : -1;
 }
 
 /// Total of a load at full ramp: what it is reported along. Zero where it has none.
@@ -207,12 +214,13 @@ Load make_load(const Scene& scene, const Model<2>& model, const LoadSpec& spec, 
     load.primary = spec.primary;
     load.no_fail = spec.no_fail;
     if (spec.face) {
-        std::vector<double> share;
-        select_face(model, areas, model.bodies[spec.face_body], *spec.face, load, share);
-        const double sum = std::accumulate(share.begin(), share.end(), 0.0);
-        for (const double s : share)
-            load.share.push_back(load.kind == Load::Kind::pressure ? Vec3(s * load.direction)
-                                                                   : Vec3(s / sum, 0, 0));
+        const Vec3 outward = outward_of(*spec.face);
+        std::vector<double> area;
+        select_face(model, areas, model.bodies[spec.face_body], outward.head<2>(), load, area);
+        const double sum = std::accumulate(area.begin(), area.end(), 0.0);
+        for (const double A : area)
+            load.share.push_back(load.kind == Load::Kind::pressure ? Vec3(A * outward) : Vec3(A / sum, 0, 0));
+        load.direction = outward;
     } else {
         load.particles = select(model, *spec.where, path, "[[load]]", problems);
         if (load.kind == Load::Kind::pressure)
@@ -258,8 +266,9 @@ void check_conflicts(const Built<2>& built, Problems& problems) {
     }
 }
 
-/// Whether every part that hangs together by bonds is held against all three motions of a rigid body.
-bool all_parts_are_held(const Built<2>& built) {
+/// A particle of a part, hanging together by bonds, that is not held against all three motions of a rigid
+/// body.
+std::optional<int> free_particle(const Built<2>& built) {
     const Particles<2>& particles = built.model.particles;
     const Bonds& bonds = built.model.bonds;
     const int n = particles.count();
@@ -301,9 +310,9 @@ bool all_parts_are_held(const Built<2>& built) {
         if (root(i) != i) continue;
         const Vec3 eigen =
             Eigen::SelfAdjointEigenSolver<Mat<3>>(forbidden[i], Eigen::EigenvaluesOnly).eigenvalues();
-        if (!(eigen.minCoeff() > 1e-9 * std::max(1.0, eigen.maxCoeff()))) return false;
+        if (!(eigen.minCoeff() > 1e-9 * std::max(1.0, eigen.maxCoeff()))) return i;
     }
-    return true;
+    return {};
 }
 
 }  // namespace
@@ -360,11 +369,26 @@ Built<2> assemble(const Scene& scene, Problems& problems) {
     }
     if (!problems.concerns("load") && !problems.concerns("fix")) {
         check_conflicts(built, problems);
-        if (scene.damping && scene.damping->damping.ratio && problems.fine("damping/ratio") &&
-            !all_parts_are_held(built))
-            problems.add("damping/ratio",
-                         "[damping] ratio: a part of the model can move freely, so it has no first mode",
-                         "give a rate, for example: rate = \"0.5 s^-1\"; or hold every part in [[fix]]");
+        if (scene.damping && scene.damping->damping.ratio && problems.fine("damping/ratio"))
+            if (const auto particle = free_particle(built)) {
+                const Vec<2>& X = model.particles.reference_position[*particle];
+                problems.add(
+                    "damping/ratio",
+                    fmt::format(
+                        "[damping] ratio: the part of the model at ({:g} m, {:g} m) can move freely, so "
+                        "there is no first mode",
+                        X.x(), X.y()),
+                    "give a rate, for example: rate = \"0.5 s^-1\"; or hold every part in [[fix]]");
+            }
+    }
+    if (scene.run.time_step && problems.fine("run/time_step") && problems.fine("material") &&
+        problems.fine("body")) {
+        const double limit = stable_time_step(model, scene.elasticity);
+        if (!(*scene.run.time_step <= limit))
+            problems.add("run/time_step",
+                         fmt::format("[run] time_step: {:.3g} s is above the stable {:.3g} s",
+                                     *scene.run.time_step, limit),
+                         "leave it out to have it chosen");
     }
     return built;
 }
@@ -391,9 +415,20 @@ Topology topology_of(const Scene& scene, const Built<2>& built) {
     for (const Hold& hold : built.physics.holds)
         topology.supports.push_back({hold.name, hold.particles, hold.axes});
     static constexpr const char* kinds[] = {"force", "pressure", "displacement", "velocity"};
-    for (const Load& load : built.physics.loads)
-        topology.loads.push_back(
-            {load.name, kinds[static_cast<int>(load.kind)], load.particles, load.direction, load.primary});
+    for (std::size_t k = 0; k < built.physics.loads.size(); ++k) {
+        const Load& load = built.physics.loads[k];
+        LoadMark mark{load.name, kinds[static_cast<int>(load.kind)], load.particles, load.direction,
+                      load.primary};
+        if (scene.loads[k]
+                .face) {  // drawn on the outermost row alone, though rows behind it carry some of it
+            const Vec3 outward = outward_of(*scene.loads[k].face);
+            mark.particles.clear();
+            for (std::size_t i = 0; i < load.particles.size(); ++i)
+                if ((load.kind == Load::Kind::force ? load.share[i].x() : load.share[i].dot(outward)) > 0)
+                    mark.particles.push_back(load.particles[i]);
+        }
+        topology.loads.push_back(std::move(mark));
+    }
     topology.notches = built.notches;
     return topology;
 }

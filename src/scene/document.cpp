@@ -6,7 +6,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "scene/prescan.hpp"
 
@@ -92,12 +91,6 @@ class Converter {
             case toml::node_type::floating_point:
                 value.kind = Value::Kind::number;
                 value.number = node.as_floating_point()->get();
-                if (!std::isfinite(value.number)) {
-                    errors_.push_back({value.place.line, value.place.column, value.place.length,
-                                       fmt::format("{} is not a number that can be used", value.number),
-                                       "every value of a scene is finite"});
-                    value.number = 0;
-                }
                 break;
             case toml::node_type::boolean:
                 value.kind = Value::Kind::boolean;

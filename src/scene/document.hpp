@@ -22,7 +22,7 @@ struct Value {
     Place place{};
     std::string text{};
     bool plain_text = false;  ///< a text without escapes: its first character stands right behind the quote
-    double number = 0;        ///< integers, too
+    double number = 0;        ///< integers, too; may be infinite or none
     std::int64_t integer = 0;
     bool boolean = false;
     std::vector<Value> items{};    ///< of an array

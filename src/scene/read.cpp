@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -34,13 +35,15 @@ void override_parameter(ReadContext& context, const std::string& name, const std
         const Expression given(text, context.names);
         if (given.is_condition() || (!given.is_bare_number() && !(given.dimension() == quantity.dimension)))
             context.problems.add(
-                path, fmt::format("-p {0}={1}: {0} is {2}; \"{1}\" is {3}", name, text,
-                                  dimension_name(quantity.dimension),
-                                  given.is_condition() ? "a condition" : dimension_name(given.dimension())));
+                path, {},
+                fmt::format("-p {0}={1}: {0} is {2}; \"{1}\" is {3}", name, text,
+                            dimension_name(quantity.dimension),
+                            given.is_condition() ? "a condition" : dimension_name(given.dimension())),
+                "");
         else
             quantity.value = given(Vec3::Zero(), 0);
     } catch (const ExpressionError& error) {
-        context.problems.add(path, fmt::format("-p {}={}: {}", name, text, error.what()), error.hint);
+        context.problems.add(path, {}, fmt::format("-p {}={}: {}", name, text, error.what()), error.hint);
     }
 }
 
@@ -60,7 +63,10 @@ void read_params(const Value& document, const Overrides& overrides, ReadContext&
                     : fmt::format("{}: not a name", label),
                 "letters, digits and _, for example \"spacing\"");
         } else if (entry.value.kind == Value::Kind::number || entry.value.kind == Value::Kind::integer) {
-            quantity = Quantity{entry.value.number, {}};
+            if (std::isfinite(entry.value.number))
+                quantity = Quantity{entry.value.number, {}};
+            else
+                context.problems.add(path, fmt::format("{} needs a finite number", label));
         } else if (entry.value.kind == Value::Kind::text) {
             try {
                 const Expression formula(entry.value.text, context.names);
@@ -94,7 +100,7 @@ void read_params(const Value& document, const Overrides& overrides, ReadContext&
     for (const auto& [name, given] : overrides) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         const auto near = nearest(name, known);
-        context.problems.add("-p/" + name,
+        context.problems.add("-p/" + name, {},
                              fmt::format("-p {}={}: this scene has no parameter \"{}\"", name, given, name),
                              near            ? fmt::format("did you mean \"{}\"?", *near)
                              : known.empty() ? "it has no [params]"
@@ -170,7 +176,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
     // What is missing as a whole is missed at the end of the file.
     const int lines =
         static_cast<int>(std::count(text.begin(), text.end(), '\n')) + (text.ends_with('\n') ? 0 : 1);
-    context.problems.stands_at("", {std::max(1, lines), 1, 1});
+    document.place = {std::max(1, lines), 1, 1};
     read_top(document, context, scene);
     read_params(document, overrides, context, scene);
     read_blocks(document, context, scene);

@@ -75,18 +75,34 @@ TEST_F(States, WithoutAnglesNoneComeBack) {
     EXPECT_TRUE(read_state(written(example::snapshot(0)), topology_).angle.empty());
 }
 
+/// So many particles that every array has several chunks, the last one partly filled.
+Snapshot large_snapshot() {
+    constexpr int count = 100'000;
+    Snapshot s;
+    s.bond_strain.assign(count, 1);
+    s.damage = s.energy = s.bond_strain;
+    s.stress.resize(count);
+    for (int i = 0; i < count; ++i) s.displacement.push_back(Vec3(i, 0.1 * i, 1.0 / (i + 1)));
+    s.velocity = s.displacement;
+    return s;
+}
+
 TEST_F(States, ManyParticlesSurviveTheChunks) {
-    constexpr int count = 100'000;  // more than one chunk in every array, the last one partly filled
-    topology_.reference_position.assign(count, Vec3(1, 2, 3));
-    Snapshot expected;
-    expected.bond_strain.assign(count, 1);
-    expected.damage = expected.energy = expected.bond_strain;
-    expected.stress.resize(count);
-    for (int i = 0; i < count; ++i) expected.displacement.push_back(Vec3(i, 0.1 * i, 1.0 / (i + 1)));
-    expected.velocity = expected.displacement;
+    const Snapshot expected = large_snapshot();
+    topology_.reference_position.assign(expected.count(), Vec3(1, 2, 3));
     const Snapshot s = read_state(written(expected), topology_);
     EXPECT_TRUE(s.displacement == expected.displacement);
     EXPECT_TRUE(s.bond_strain == expected.bond_strain);
+}
+
+TEST_F(States, DamagedBytesInsideAnArrayAreNamed) {
+    const Snapshot expected = large_snapshot();
+    topology_.reference_position.assign(expected.count(), Vec3(1, 2, 3));
+    const std::filesystem::path file = written(expected);
+    std::string bytes = read_file(file);
+    bytes[bytes.size() / 2] ^= 1;  // far from the head, among the compressed numbers
+    write_file(file, bytes);
+    EXPECT_NE(message_of([&] { read_state(file, topology_); }).find("000000.hdf: "), std::string::npos);
 }
 
 TEST_F(States, TwoWritesOfTheSameGiveTheSameBytes) {

@@ -1,0 +1,202 @@
+#include "app/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/estimate.hpp"
+#include "base/units.hpp"
+#include "physics/simulation.hpp"
+
+namespace hibi {
+
+namespace {
+
+std::string si(double value, const std::string& unit) { return format_si(value, unit, 4, true); }
+
+std::string axes_text(const std::array<bool, 3>& axes) {
+    std::string text;
+    for (int axis = 0; axis < 2; ++axis)
+        if (axes[axis]) text += text.empty() ? std::string(1, static_cast<char>('x' + axis)) : " and y";
+    return text;
+}
+
+std::string moment_text(const Moment& moment) {
+    if (!moment.event) return si(moment.offset, "s");
+    std::string text = to_string(*moment.event);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    if (moment.offset != 0)
+        text += fmt::format(" {} {}", moment.offset < 0 ? "-" : "+", si(std::abs(moment.offset), "s"));
+    return text;
+}
+
+std::string value_text(const Field& field, const std::string& unit) {
+    return field.is_constant() ? si(field(Vec3::Zero(), 0), unit) : field.text();
+}
+
+std::string load_text(const LoadSpec& spec, const Load& load) {
+    static constexpr const char* kinds[] = {"force", "pressure", "displacement", "velocity"};
+    static constexpr const char* units[] = {"N", "Pa", "m", "m/s"};
+    const int kind = static_cast<int>(load.kind);
+    std::string value = value_text(load.value[0], units[kind]);
+    if (load.kind != Load::Kind::pressure) {
+        const auto component = [&](int axis) {
+            const bool free = load.kind != Load::Kind::force && !load.driven[axis];
+            return free ? std::string("free") : value_text(load.value[axis], units[kind]);
+        };
+        value = fmt::format("({}, {})", component(0), component(1));
+    }
+    return fmt::format("{} {} on {} particles{}; {}{}{}", kinds[kind], value, load.particles.size(),
+                       spec.face ? fmt::format(" behind the {} face", *spec.face) : "",
+                       spec.ramp > 0 ? fmt::format("full after {}", si(spec.ramp, "s")) : "suddenly applied",
+                       spec.until ? ", until " + moment_text(*spec.until) : "",
+                       load.primary ? "; drives the curve" : "");
+}
+
+/// What a user might not expect of a scene that is right.
+std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built) {
+    std::vector<std::string> notes;
+    const auto primary =
+        std::find_if(scene.loads.begin(), scene.loads.end(), [](const LoadSpec& l) { return l.primary; });
+    const bool forced = primary != scene.loads.end() &&
+                        (primary->kind == Load::Kind::force || primary->kind == Load::Kind::pressure) &&
+                        primary->value[0].is_constant() && primary->value[1].is_constant() && !primary->until;
+    if (scene.run.until && scene.run.until->event == EventName::peak_load && forced)
+        notes.push_back(
+            "[run] until: an applied force never falls, so peak_load is not confirmed before max_time");
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        if (std::abs(built.lattice_area_error[b]) > 0.05)
+            notes.push_back(fmt::format(
+                "body \"{}\": its particles cover {:+.1f} % of its area too much; a smaller spacing helps",
+                scene.bodies[b].name, 100 * built.lattice_area_error[b]));
+    const bool breaks = std::any_of(built.model.materials.begin(), built.model.materials.end(),
+                                    [](const Material& m) { return m.can_break(); });
+    int alone = 0;
+    for (int i = 0; i < built.model.particles.count(); ++i)
+        alone += built.model.bonds.start[i] == built.model.bonds.start[i + 1];
+    if (alone > 0)
+        notes.push_back(
+            fmt::format("{} particles have no bond: does a notch run through their centres?", alone));
+    if (!breaks) notes.push_back("no material can break: give one a break_strain or a fracture_energy");
+    return notes;
+}
+
+void print_report(const Scene& scene, const Built<2>& built, const Simulation<2>& simulation,
+                  const Estimate& estimate) {
+    const Model<2>& model = built.model;
+    const auto row = [](const std::string& name, const std::string& text) {
+        fmt::print("{:<11} {}\n", name, text);
+    };
+    fmt::print("{}\n{}\n\n", scene.title, scene.file.string());
+    row("model", fmt::format("2-D, {}, {} thick; bonds within {} spacings; {} elasticity",
+                             scene.assumption == Assumption::plane_stress ? "plane stress" : "plane strain",
+                             si(scene.thickness, "m"), scene.influence,
+                             scene.elasticity == Elasticity::thesis ? "thesis" : "moment-matched"));
+    for (const Parameter& p : scene.params) row("parameter", fmt::format("{} = {}", p.name, p.text));
+    row("particles", fmt::format("{}", model.particles.count()));
+    row("bonds",
+        fmt::format("{}{}", model.bonds.count(),
+                    scene.notches.empty() ? "" : fmt::format(", and {} cut by notches", model.bonds_cut)));
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        const Body<2>& body = model.bodies[b];
+        double mass = 0;
+        for (int i = body.begin; i < body.end; ++i) mass += model.particles.mass[i];
+        row("body", fmt::format("{}: {}, {} particles of {}, {:.4g} kg; area and mass {:+.2f} %", body.name,
+                                model.materials[body.material].name, body.end - body.begin,
+                                si(body.spacing, "m"), mass, 100 * built.lattice_area_error[b] + 0.0));
+    }
+    for (const Hold& hold : built.physics.holds)
+        row("support", fmt::format("{}: {} particles held in {}", hold.name, hold.particles.size(),
+                                   axes_text(hold.axes)));
+    for (std::size_t l = 0; l < scene.loads.size(); ++l)
+        row("load",
+            fmt::format("{}: {}", scene.loads[l].name, load_text(scene.loads[l], built.physics.loads[l])));
+    if (scene.damping)
+        row("damping",
+            fmt::format("rate {}/s{}{}", format_si(simulation.damping_rate(), "", 4, true),
+                        scene.damping->damping.ratio
+                            ? fmt::format(", ratio {} of the first mode", *scene.damping->damping.ratio)
+                            : "",
+                        scene.damping->until ? ", until " + moment_text(*scene.damping->until) : ""));
+    row("run", fmt::format("{}until {}",
+                           scene.run.until ? "until " + moment_text(*scene.run.until) + ", at most " : "",
+                           si(scene.run.max_time, "s")));
+    row("time step", fmt::format("{}, {:.2f} of the stable {}", si(simulation.time_step(), "s"),
+                                 simulation.time_step() / simulation.stable_time_step(),
+                                 si(simulation.stable_time_step(), "s")));
+    int number = 0;
+    for (const std::string& stage : simulation.stage_names()) {
+        ++number;
+        row(number == 1 ? "each step" : "", fmt::format("{}. {}", number, stage));
+    }
+    row("film", fmt::format("{} frames, {} x {}, {} per second", scene.movie.frames(), scene.view.width,
+                            scene.view.height, scene.movie.fps));
+    row("at most",
+        fmt::format(
+            "{} steps, {:.3g} s to simulate, about {:.3g} s to draw; {:.0f} MB of memory, {:.0f} MB on disk",
+            estimate.steps, estimate.solve_seconds, estimate.draw_seconds, estimate.memory / 1e6,
+            estimate.disk / 1e6));
+    for (const std::string& note : notes_on(scene, built)) row("note", note);
+    fmt::print("\nThe scene with every default filled in, in SI units:\n\n{}", write_scene(scene));
+}
+
+void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& simulation,
+                const Estimate& estimate) {
+    using nlohmann::ordered_json;
+    const Model<2>& model = built.model;
+    ordered_json bodies = ordered_json::array(), supports = ordered_json::array(),
+                 loads = ordered_json::array();
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        const Body<2>& body = model.bodies[b];
+        bodies.push_back({{"name", body.name},
+                          {"material", model.materials[body.material].name},
+                          {"particles", body.end - body.begin},
+                          {"spacing", body.spacing},
+                          {"area_error", built.lattice_area_error[b]}});
+    }
+    for (const Hold& hold : built.physics.holds)
+        supports.push_back({{"name", hold.name}, {"particles", hold.particles.size()}});
+    for (const Load& load : built.physics.loads)
+        loads.push_back({{"name", load.name},
+                         {"particles", load.particles.size()},
+                         {"direction", {load.direction.x(), load.direction.y()}},
+                         {"primary", load.primary}});
+    const ordered_json json{
+        {"scene", {{"title", scene.title}, {"hash", scene_hash(scene)}, {"toml", write_scene(scene)}}},
+        {"counts",
+         {{"particles", model.particles.count()},
+          {"bonds", model.bonds.count()},
+          {"bonds_cut", model.bonds_cut},
+          {"frames", scene.movie.frames()}}},
+        {"bodies", bodies},
+        {"supports", supports},
+        {"loads", loads},
+        {"stages", simulation.stage_names()},
+        {"time_step", simulation.time_step()},
+        {"stable_time_step", simulation.stable_time_step()},
+        {"estimate",
+         {{"steps", estimate.steps},
+          {"solve_seconds", estimate.solve_seconds},
+          {"draw_seconds", estimate.draw_seconds},
+          {"memory", estimate.memory},
+          {"disk", estimate.disk}}},
+        {"notes", notes_on(scene, built)}};
+    fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+int check_command(const std::filesystem::path& file, const Overrides& overrides, bool json) {
+    const Scene scene = read_scene(file, overrides);
+    const Built<2> built = build(scene);
+    Simulation<2> simulation(built.model, built.physics);
+    const Estimate estimate = estimate_run(scene, built, simulation);
+    // The stages are asked of a simulation that has made steps, the values are those of the scene.
+    (json ? print_json : print_report)(scene, built, simulation, estimate);
+    return 0;
+}
+
+}  // namespace hibi

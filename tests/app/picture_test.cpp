@@ -1,0 +1,111 @@
+#include "app/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "app/recorded_cantilever.hpp"
+#include "app/whole_run.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace hibi {
+namespace {
+
+/// States every 0.05 s; breaks from 1 s to 1.5 s, where the body comes apart.
+class Recorded : public ::testing::Test {
+ protected:
+    void SetUp() override {
+        cantilever_.write(folder_.path());
+        run_.emplace(folder_.path());
+    }
+    RecordedCantilever cantilever_;
+    TemporaryFolder folder_;
+    std::optional<RunReader> run_;
+};
+
+using Picture = Recorded;
+using WholeRun = Recorded;
+
+TEST_F(Picture, PositionsAndValuesAreInterpolatedBetweenStates) {
+    PictureSource source(*run_, View{}, {-0.1, 0.1});
+    const Picture2 before = source.at(0.5), after = source.at(0.55), middle = source.at(0.525);
+    const int tip = 49;
+    ASSERT_NE(before.y[tip], after.y[tip]);
+    EXPECT_NEAR(middle.y[tip], (before.y[tip] + after.y[tip]) / 2, 1e-6);
+    EXPECT_NEAR(middle.value[40], (before.value[40] + after.value[40]) / 2, 1e-6);
+    EXPECT_EQ(source.at(0.5).y, before.y);  // backwards as well
+}
+
+TEST_F(Picture, DisplacementsAreMagnified) {
+    View view;
+    view.magnify = 3;
+    const Picture2 big = PictureSource(*run_, view, {0, 1}).at(1),
+                   plain = PictureSource(*run_, {}, {0, 1}).at(1);
+    const double Y = run_->topology().reference_position[49].y();
+    EXPECT_NEAR(big.y[49] - Y, 3 * (plain.y[49] - Y), 1e-5);
+}
+
+TEST_F(Picture, ABondIsBrokenFromItsTimeOnAndNotBefore) {
+    View view;
+    view.bonds = "all";
+    PictureSource source(*run_, view, {0, 1});
+    const int bonds = static_cast<int>(run_->broken_at().size());
+    double last = 0;
+    for (const double time : {0.0, 0.999, 1.0, 1.124, 1.125, 1.126, 1.4, 2.0}) {
+        const Picture2 picture = source.at(time);
+        for (const int b : picture.broken) EXPECT_LE(run_->broken_at()[b], time);
+        for (const int b : picture.intact) EXPECT_GT(run_->broken_at()[b], time);
+        EXPECT_EQ(static_cast<int>(picture.broken.size() + picture.intact.size()), bonds);
+        EXPECT_GE(static_cast<double>(picture.broken.size()), last);
+        last = static_cast<double>(picture.broken.size());
+    }
+    EXPECT_EQ(last, 13);  // between two columns of five: five sides, eight diagonals
+}
+
+TEST_F(Picture, NearestBondsAreThoseOfTheLatticeSpacing) {
+    const Topology& t = run_->topology();
+    const std::vector<int> nearest = drawn_bonds(t, "nearest");
+    EXPECT_EQ(nearest.size(), 85u);  // 9 x 5 across and 10 x 4 up
+    for (const int b : nearest) EXPECT_LT(t.rest_length[b], 1.01);
+    EXPECT_EQ(drawn_bonds(t, "all").size(), t.first.size());
+    EXPECT_TRUE(drawn_bonds(t, "none").empty());
+}
+
+TEST_F(Picture, ValuesOutsideTheRangeAreHeldAtItsEnds) {
+    PictureSource source(*run_, View{}, {-0.001, 0.001});
+    for (const float v : source.at(1).value) {
+        EXPECT_GE(v, 0);
+        EXPECT_LE(v, 1);
+    }
+}
+
+TEST_F(WholeRun, TheWindowHoldsTheBodyUpToSeparationAndNoMore) {
+    const std::array<double, 4> window = body_window(*run_, View{});
+    View magnified;
+    magnified.magnify = 1 + 1e-9;  // the slow way, through all positions
+    const std::array<double, 4> slow = body_window(*run_, magnified);
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(window[k], slow[k], 1e-6);
+    PictureSource source(*run_, View{}, {0, 1});
+    for (const double time : {0.0, 0.7, 1.0, 1.3, 1.5}) {
+        const Picture2 picture = source.at(time);
+        for (std::size_t i = 0; i < picture.x.size(); ++i) {
+            EXPECT_GE(picture.x[i] - 0.5, window[0] - 1e-5);
+            EXPECT_GE(picture.y[i] - 0.5, window[1] - 1e-5);
+            EXPECT_LE(picture.x[i] + 0.5, window[2] + 1e-5);
+            EXPECT_LE(picture.y[i] + 0.5, window[3] + 1e-5);
+        }
+    }
+    EXPECT_LT(source.at(2).y[9], window[1]);  // what falls later leaves the picture
+}
+
+TEST_F(WholeRun, ASignedFieldHasASymmetricRoundRange) {
+    // 0.2 * height / rows at the clamp: at most 0.2 * 2 / 5 = 0.08
+    EXPECT_NEAR(colour_range(*run_, "bond_strain")[0], -0.08, 1e-9);
+    EXPECT_NEAR(colour_range(*run_, "bond_strain")[1], 0.08, 1e-9);
+    EXPECT_EQ(colour_range(*run_, "energy")[0], 0);
+    EXPECT_NEAR(colour_range(*run_, "energy")[1], 4, 1e-9);                         // height^2 = 4
+    EXPECT_LT(colour_range(*run_, "damage")[0], colour_range(*run_, "damage")[1]);  // zero everywhere
+}
+
+}  // namespace
+}  // namespace hibi

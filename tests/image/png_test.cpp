@@ -1,0 +1,94 @@
+#include "image/png.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "support/temporary_folder.hpp"
+
+namespace hibi {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every pixel another colour, neither side a power of two.
+Image gradient() {
+    Image image(61, 37);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            std::uint8_t* p = image.pixel(x, y);
+            p[0] = static_cast<std::uint8_t>(4 * x);
+            p[1] = static_cast<std::uint8_t>(6 * y);
+            p[2] = static_cast<std::uint8_t>(x * y);
+        }
+    return image;
+}
+
+std::string message_of_reading(const fs::path& file) {
+    try {
+        read_png(file);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void write_bytes(const fs::path& file, const std::vector<unsigned char>& bytes) {
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+TEST(Png, PixelsAndTextComeBack) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "a.png";
+    for (const bool small : {false, true}) {
+        write_png(file, gradient(), {{"Title", "Bending"}, {"Comment", "曲げ破壊, ν = 0.3"}}, small);
+        PngText text;
+        EXPECT_EQ(pixel_hash(read_png(file, &text)), pixel_hash(gradient()));
+        EXPECT_EQ(text["Title"], "Bending");
+        EXPECT_EQ(text["Comment"], "曲げ破壊, ν = 0.3");
+    }
+    EXPECT_FALSE(fs::exists(file.string() + ".tmp"));
+}
+
+TEST(Png, SmallSettingIsSmaller) {
+    EXPECT_LT(encode_png(gradient(), {}, true).size(), encode_png(gradient()).size());
+}
+
+TEST(Png, EveryTruncationIsAnErrorNamingTheFile) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "cut.png";
+    const std::vector<unsigned char> whole = encode_png(gradient());
+    for (std::size_t size = 0; size < whole.size(); size += 97) {
+        write_bytes(file, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
+        EXPECT_NE(message_of_reading(file).find("cut.png"), std::string::npos) << size;
+    }
+}
+
+TEST(Png, DamageIsSaidAndOtherFilesAreNoPictures) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "b.png";
+    std::vector<unsigned char> bytes = encode_png(gradient());
+    bytes[bytes.size() / 2] ^= 0x55;
+    write_bytes(file, bytes);
+    EXPECT_NE(message_of_reading(file).find("damaged PNG"), std::string::npos);
+    write_bytes(file, {'v', 'e', 'r', 's', 'i', 'o', 'n', ' ', '=', ' ', '1'});
+    EXPECT_NE(message_of_reading(file).find("not a PNG"), std::string::npos);
+    EXPECT_NE(message_of_reading(folder.path() / "none.png").find("none.png: cannot open"),
+              std::string::npos);
+}
+
+TEST(Png, AFileThatCannotBeWrittenIsNamed) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "no such folder" / "a.png";
+    try {
+        write_png(file, gradient());
+        FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace hibi
