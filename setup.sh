@@ -38,7 +38,9 @@ install_missing() {
     fi
     local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
     echo "Installing ${#missing[@]} Debian packages: ${missing[*]}" >&2
-    if ! { "${apt[@]}" update -q && "${apt[@]}" install -q -y --no-install-recommends "${missing[@]}"; } >&2; then
+    # A source that cannot be reached need not be the one that has them: install decides.
+    "${apt[@]}" -q update >&2 || true
+    if ! "${apt[@]}" -q -y --no-install-recommends install "${missing[@]}" >&2; then
         echo "The packages could not be installed. What was tried, to be repeated by hand as root:" >&2
         echo "    apt-get update && apt-get install --no-install-recommends ${missing[*]}" >&2
         exit 1

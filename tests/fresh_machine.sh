@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Shows that ./run and ./test do all the set-up on a fresh machine: makes a minimal Debian 12 in a folder, clones the
-# committed project into it, and runs both there, twice, without /proc and with nothing installed but git.
+# Shows that ./run and ./test do all the set-up on a fresh machine: makes a minimal Debian 12 in a folder, clones
+# the committed project into it, and runs both there, twice, without /proc and with nothing installed but git.
 #
 #     tests/fresh_machine.sh [FOLDER]       default: build/fresh; what an earlier call left there is removed
 #
@@ -43,7 +43,9 @@ git clone --quiet --no-hardlinks "$project" "$tree/root/hibi"
 
 # In the tree from the root folder: both commands must not depend on where they are called.
 inside() { env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin chroot "$tree" "$@"; }
-stamp() { inside sh -c 'dpkg -l | sha256sum; cd /root/hibi/build/release && find . -name "*.o" -newer /stamp | wc -l'; }
+stamp() {
+    inside sh -c 'dpkg -l | sha256sum; find /root/hibi/build/release -name "*.o" -newer /stamp | wc -l'
+}
 
 for command in "/root/hibi/run" "/root/hibi/test"; do
     echo "== $command"

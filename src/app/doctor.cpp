@@ -47,7 +47,7 @@ std::string look_at_renderer(GlBackend backend) {
 }
 
 std::string look_at_encoder() {
-    const std::string name = encoder_name();
+    std::string name = encoder_name();
     if (name.empty()) throw std::runtime_error("these FFmpeg libraries cannot encode H.264");
     return name;
 }

@@ -63,9 +63,9 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
     };
     for (int k = 0; k < frames; ++k) {
         Image image = writer.take();
-        drawing.draw(k, image);
-        if (k == plan.poster) write_poster(image);
         FrameInfo info;
+        info.broken = drawing.draw(k, image);
+        if (k == plan.poster) write_poster(image);
         info.file = fmt::format("frames/{:06}.png", k);
         info.time = plan.time[k];
         if (plan.event[k]) info.event = to_string(*plan.event[k]);

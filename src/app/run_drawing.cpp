@@ -75,7 +75,7 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererO
     }
 }
 
-void RunDrawing::draw(int frame, Image& image) {
+int RunDrawing::draw(int frame, Image& image) {
     const double time = plan_.time[frame];
     Picture2 picture = source_.at(time);
     picture.camera = camera_;
@@ -99,6 +99,7 @@ void RunDrawing::draw(int frame, Image& image) {
         over.symbols.push_back(place_mark(mark, source_.x(), source_.y(), camera_, size, unit_));
     }
     overlay_.draw(image, over);
+    return over.broken;
 }
 
 double RunDrawing::load_size(int load, double time) const {

@@ -21,8 +21,8 @@ class RunDrawing {
 
     const FilmPlan& plan() const { return plan_; }
     std::string renderer() const { return renderer_.description(); }
-    /// The picture of a frame, everything included; cheapest in rising order.
-    void draw(int frame, Image& image);
+    /// The picture of a frame, everything included; cheapest in rising order. Returns how many bonds it shows as broken.
+    int draw(int frame, Image& image);
 
  private:
     double load_size(int load, double time) const;

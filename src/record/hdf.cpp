@@ -164,7 +164,7 @@ std::string HdfFile::text_attribute(const std::string& object, const std::string
     std::string text(H5Tget_size(type), '\0');
     check(H5Tis_variable_str(type) == 0 && H5Aread(found, type, text.data()) >= 0,
           fmt::format("read {}:{}", object, name));
-    return text.c_str();  // without the padding
+    return text.substr(0, text.find('\0'));  // without the padding
 }
 
 }  // namespace hibi

@@ -16,23 +16,23 @@ namespace hibi {
 struct RunSummary {
     std::string title, scene_hash, scene_file, version;
     int particles = 0, bonds = 0, broken = 0, frames = 0, threads = 0;
-    int dimension = 2;                       ///< components of a position in run.json
+    int dimension = 2;  ///< components of a position in run.json
     std::int64_t steps = 0;
     double time_step = 0, end_time = 0;
     Events events;
     double worst_imbalance = 0, imbalance_at_first_break = 0;
     bool trusted = true;
-    std::map<std::string, double> seconds;   ///< setup, solve, draw, encode, total
-    std::optional<std::string> stopped;      ///< why the run ended early, in words
+    std::map<std::string, double> seconds;  ///< setup, solve, draw, encode, total
+    std::optional<std::string> stopped;     ///< why the run ended early, in words
     std::vector<std::string> warnings;
 };
 
 /// Writes the folder of a run while it goes on. Every file is written under a temporary name and renamed, but
-/// history.csv and breaks.csv, which grow. States are written by a thread of its own; its errors are thrown by
-/// the next call. The state of step n is states/<n, six digits or more>.hdf; the topology, which all states share
-/// by HDF5 external links, is states/topology.hdf.
+/// history.csv and breaks.csv, which grow. States are written by a thread of its own; its errors are thrown
+/// by the next call. The state of step n is states/<n, six digits or more>.hdf; the topology, which all
+/// states share by HDF5 external links, is states/topology.hdf.
 class RunWriter {
-  public:
+ public:
     /// Creates the folder; removes what an earlier run left in it, and nothing else.
     /// Throws std::runtime_error naming the folder where it cannot be written.
     explicit RunWriter(std::filesystem::path folder);
@@ -41,16 +41,16 @@ class RunWriter {
     RunWriter& operator=(const RunWriter&) = delete;
 
     void scene(const std::string& toml);
-    void topology(Topology topology);                 ///< before the first state
+    void topology(Topology topology);  ///< before the first state
     void history_header(const std::vector<std::string>& load_names, int dimension);
     void row(const HistoryRow& row);
     void breaks(const std::vector<Break>& breaks);
-    void state(Snapshot snapshot);                    ///< queued; ignored if that step is already there
-    void drop_state(std::int64_t step);               ///< a state no longer wanted
+    void state(Snapshot snapshot);       ///< queued; ignored if that step is already there
+    void drop_state(std::int64_t step);  ///< a state no longer wanted
     /// Waits for the queue, writes states.hdf.series and run.json. May fail, so it is no destructor.
     void finish(const RunSummary& summary);
 
-  private:
+ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
@@ -63,6 +63,7 @@ struct FrameInfo {
     std::string file;                    ///< relative to the folder: frames/000000.png
     double time = 0;                     ///< simulated time (s)
     std::optional<std::string> event{};  ///< what happens in this frame
+    int broken = 0;                      ///< bonds drawn as broken
     std::string sha256;                  ///< pixel_hash of the frame
 };
 void write_frames(const std::filesystem::path& folder, const std::vector<FrameInfo>& frames);
@@ -74,17 +75,19 @@ struct StateInfo {
 };
 
 /// What drawing needs of a recorded run. Small parts are read at once, states one by one.
-/// Every error names the file and what is wrong with it (std::runtime_error). A run that was killed can be read as
-/// well: without run.json the summary says so in `stopped` and counts what the other files hold.
+/// Every error names the file and what is wrong with it (std::runtime_error). A run that was killed can be
+/// read as well: without run.json the summary says so in `stopped` and counts what the other files hold.
 class RunReader {
-  public:
+ public:
     explicit RunReader(std::filesystem::path folder);
 
     const std::filesystem::path& folder() const { return folder_; }
     const Topology& topology() const { return topology_; }
     const History& history() const { return history_; }
-    const std::vector<StateInfo>& states() const { return states_; }   ///< in rising order of time
-    const std::vector<double>& broken_at() const { return broken_at_; }///< per bond (s), infinity where intact
+    const std::vector<StateInfo>& states() const { return states_; }  ///< in rising order of time
+    const std::vector<double>& broken_at() const {
+        return broken_at_;
+    }  ///< per bond (s), infinity where intact
     const RunSummary& summary() const { return summary_; }
     Snapshot read(int state) const;
 
@@ -96,7 +99,7 @@ class RunReader {
     };
     Extent extent(int state) const;
 
-  private:
+ private:
     std::filesystem::path folder_;
     Topology topology_;
     History history_;

@@ -141,12 +141,12 @@ struct RunWriter::Impl {
 };
 
 RunWriter::RunWriter(std::filesystem::path folder) : impl_(std::make_unique<Impl>()) {
-    impl_->folder = folder;
-    impl_->states = folder / "states";
-    create_folder(folder);
+    impl_->folder = std::move(folder);
+    impl_->states = impl_->folder / "states";
+    create_folder(impl_->folder);
     // Before anything is removed: a folder that cannot be written keeps its old run.
-    write_file(folder / "scene.toml", "");
-    remove_leftovers(folder);
+    write_file(impl_->folder / "scene.toml", "");
+    remove_leftovers(impl_->folder);
     create_folder(impl_->states);
     impl_->worker = std::thread([impl = impl_.get()] { impl->work(); });
 }

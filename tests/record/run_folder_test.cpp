@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "record/example.hpp"
+#include "record/tables.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace hibi {
@@ -136,6 +137,19 @@ TEST(RunFolder, FailedRunKeepsWhatWasRecorded) {
         for (int step = 0; step < 5; ++step) writer.state(example::snapshot(step));
     }  // never finished
     EXPECT_EQ(RunReader(folder.path()).states().size(), 5u);
+}
+
+TEST(RunFolder, HistoryIsOnDiskBeforeTheStateThatFollowsIt) {
+    const TemporaryFolder folder;
+    RunWriter writer(folder.path());
+    writer.topology(example::topology());
+    writer.history_header(example::load_names, 2);
+    writer.row(example::row(0));
+    writer.breaks({{0.15, 1, 1, 2, Vec3::Zero(), 0.1}});
+    writer.state(example::snapshot(0));
+    // What a kill at this moment would leave.
+    EXPECT_EQ(read_history(folder.path() / "history.csv").rows.size(), 1u);
+    EXPECT_EQ(read_breaks(folder.path() / "breaks.csv").size(), 1u);
 }
 
 TEST(RunFolder, DamagedStateIsNamedAndTheOthersCanStillBeRead) {

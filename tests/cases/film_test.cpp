@@ -1,0 +1,240 @@
+// The program as a user calls it: one small scene from file to film, and what must not change it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "base/hash.hpp"
+#include "record/run_folder.hpp"
+
+namespace hibi {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+struct Answer {
+    int status = -1;
+    std::string out;  ///< standard output and error together
+};
+Answer call(const std::string& command) {
+    Answer answer;
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    char buffer[4096];
+    while (const std::size_t got = fread(buffer, 1, sizeof buffer, pipe)) answer.out.append(buffer, got);
+    const int status = pclose(pipe);
+    answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return answer;
+}
+Answer hibi(const std::string& arguments, const std::string& environment = {}) {
+    return call(environment + " " HIBI_PROGRAM " " + arguments);
+}
+
+/// The fine cantilever with 20 x 10 particles and a small, short film.
+fs::path small_scene(const fs::path& folder) {
+    std::string text = text_of(fs::path(HIBI_SOURCE_DIR) / "scenes/bending_fine.toml");
+    text = std::regex_replace(text, std::regex("spacing = \"1 m\""), "spacing = \"2 m\"");
+    text = std::regex_replace(text, std::regex("\\[view\\]"),
+                              "[movie]\nduration = \"2 s\"\n\n[view]\nsize = [320, 180]");
+    const fs::path file = folder / "small.toml";
+    std::ofstream(file) << text;
+    return file;
+}
+
+/// Hashes of all frames and of all states of a run.
+std::string prints_of(const fs::path& run) {
+    std::string all;
+    for (const auto& frame : nlohmann::json::parse(text_of(run / "frames.json")))
+        all += frame["sha256"].get<std::string>();
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(run / "states")) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) all += file.filename().string() + sha256(text_of(file));
+    return sha256(all);
+}
+
+class Film : public testing::Test {
+ protected:
+    static void SetUpTestSuite() {
+        folder_ = fs::temp_directory_path() / ("hibi-film-" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        scene_ = small_scene(folder_);
+        run_ = folder_ / "run";
+        const Answer answer = hibi("run " + scene_.string() + " -q -o " + run_.string());
+        ASSERT_EQ(answer.status, 0) << answer.out;
+    }
+    static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+    static inline fs::path folder_, scene_, run_;
+};
+
+TEST_F(Film, LeavesEveryFileOfTheContract) {
+    for (const char* name :
+         {"movie.mp4", "frames/000000.png", "frames/000049.png", "frames.json", "poster.png", "history.csv",
+          "breaks.csv", "states.hdf.series", "scene.toml", "run.json"})
+        EXPECT_TRUE(fs::exists(run_ / name)) << name;
+    EXPECT_FALSE(fs::exists(run_ / "frames/000050.png"));
+    for (const auto& entry : fs::recursive_directory_iterator(run_))
+        EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+}
+
+TEST_F(Film, SameBitsAgainWithOtherThreadsVectorsAndBackEnd) {
+    const std::string first = prints_of(run_);
+    const std::vector<std::pair<std::string, std::string>> ways = {{"--threads 1", ""},
+                                                                   {"--threads 2", "LP_NUM_THREADS=0"},
+                                                                   {"--threads 3", "LP_NUM_THREADS=1"},
+                                                                   {"--gl egl", "LP_NUM_THREADS=2"}};
+    for (const auto& [arguments, environment] : ways) {
+        const fs::path other = folder_ / "other";
+        const Answer answer = hibi(
+            "run " + scene_.string() + " -q --force -o " + other.string() + " " + arguments, environment);
+        ASSERT_EQ(answer.status, 0) << answer.out;
+        EXPECT_EQ(prints_of(other), first) << environment << " " << arguments;
+    }
+}
+
+TEST_F(Film, RenderDrawsTheSameFramesFromStatesAlone) {
+    const fs::path copy = folder_ / "copy";
+    fs::copy(run_, copy, fs::copy_options::recursive);
+    const std::string first = prints_of(copy);
+    for (const char* name : {"frames", "frames.json", "movie.mp4", "poster.png"}) fs::remove_all(copy / name);
+    const Answer answer = hibi("render -q " + copy.string());
+    ASSERT_EQ(answer.status, 0) << answer.out;
+    EXPECT_EQ(prints_of(copy), first);
+    EXPECT_TRUE(fs::exists(copy / "movie.mp4"));
+}
+
+TEST_F(Film, StatesAndFramesAgreeWithTheListOfBreaks) {
+    std::map<int, double> breaks;  // bond -> time
+    std::ifstream csv(run_ / "breaks.csv");
+    for (std::string line; std::getline(csv, line);) {
+        if (line.empty() || line[0] == '#' || line.starts_with("time")) continue;
+        double time;
+        int bond;
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%d", &time, &bond), 2) << line;
+        breaks[bond] = time;
+    }
+    ASSERT_GT(breaks.size(), 20u);
+    const auto broken_by = [&](double time) {
+        return std::count_if(breaks.begin(), breaks.end(), [&](const auto& b) { return b.second <= time; });
+    };
+    const RunReader reader(run_);
+    ASSERT_GT(reader.states().size(), 50u);
+    for (std::size_t k = 0; k < reader.states().size(); ++k) {
+        const Snapshot state = reader.read(static_cast<int>(k));
+        ASSERT_EQ(static_cast<long>(state.broken.size()), broken_by(state.time)) << k;
+        for (std::size_t b = 0; b < state.broken.size(); ++b)
+            EXPECT_EQ(state.broken_at[b], breaks.at(state.broken[b]));
+    }
+    for (const auto& [bond, time] : breaks) EXPECT_EQ(reader.broken_at()[bond], time);
+    const auto frames = nlohmann::json::parse(text_of(run_ / "frames.json"));
+    ASSERT_EQ(frames.size(), 50u);
+    for (const auto& frame : frames)
+        EXPECT_EQ(frame["broken"].get<long>(), broken_by(frame["time"])) << frame;
+}
+
+TEST_F(Film, TheFailureFillsAtLeastAThirdAndEveryFrameOfItShowsSomethingNew) {
+    const auto events = nlohmann::json::parse(text_of(run_ / "run.json"))["events"];
+    const double begin = events["first_break"]["time"], end = events["separation"]["time"];
+    int during = 0, changed = 0;
+    std::string last;
+    for (const auto& frame : nlohmann::json::parse(text_of(run_ / "frames.json"))) {
+        if (frame["time"] >= begin && frame["time"] <= end) {
+            ++during;
+            changed += frame["sha256"].get<std::string>() != last;
+        }
+        last = frame["sha256"].get<std::string>();
+    }
+    EXPECT_GE(3 * during, 49);  // of 50 frames; begin and end may fall between two
+    EXPECT_EQ(changed, during);
+}
+
+TEST_F(Film, IsAnH264FilmOfTheRightLengthForEveryPlayer) {
+    const Answer answer =
+        call("ffprobe -v error -count_frames -print_format json -show_streams -show_format " +
+             (run_ / "movie.mp4").string());
+    ASSERT_EQ(answer.status, 0) << answer.out;
+    const auto stream = nlohmann::json::parse(answer.out)["streams"][0];
+    EXPECT_EQ(stream["codec_name"], "h264");
+    EXPECT_EQ(stream["pix_fmt"], "yuv420p");
+    for (const char* tag : {"color_space", "color_transfer", "color_primaries"})
+        EXPECT_EQ(stream[tag], "bt709");
+    EXPECT_EQ(stream["r_frame_rate"], "25/1");
+    EXPECT_EQ(stream["avg_frame_rate"], "25/1");
+    EXPECT_EQ(stream["nb_read_frames"], "50");
+    EXPECT_EQ(stream["width"], 320);
+    EXPECT_NEAR(std::stod(stream["duration"].get<std::string>()), 2, 1e-6);
+}
+
+TEST_F(Film, PlaysAndSeeksInABrowser) {
+    const Answer answer =
+        call(HIBI_SOURCE_DIR "/tests/film/browser_check.py " + (run_ / "movie.mp4").string() + " 320 180 2");
+    EXPECT_EQ(answer.status, 0) << answer.out;
+}
+
+TEST_F(Film, TheSceneAsRunGivesTheSameRun) {
+    const fs::path other = folder_ / "again";
+    const Answer answer = hibi("run " + (run_ / "scene.toml").string() + " -q -o " + other.string());
+    ASSERT_EQ(answer.status, 0) << answer.out;
+    EXPECT_EQ(prints_of(other), prints_of(run_));
+}
+
+TEST_F(Film, AnotherScenesRunIsNotOverwritten) {
+    const fs::path other = folder_ / "other_scene.toml";
+    fs::copy_file(scene_, other);
+    const std::string before = text_of(run_ / "run.json");
+    const Answer answer = hibi("run " + other.string() + " -q -o " + run_.string());
+    EXPECT_EQ(answer.status, 1);
+    EXPECT_NE(answer.out.find("--force"), std::string::npos) << answer.out;
+    EXPECT_EQ(text_of(run_ / "run.json"), before);
+}
+
+TEST_F(Film, AnEventThatIsNotReachedIsAWarningAndNull) {
+    const fs::path folder = folder_ / "short";
+    std::string text = text_of(scene_);
+    text = std::regex_replace(text, std::regex("max_time = \"60 s\""), "max_time = \"2 s\"");
+    const fs::path scene = folder_ / "short.toml";
+    std::ofstream(scene) << text;
+    const Answer answer = hibi("run " + scene.string() + " --no-movie -q -o " + folder.string());
+    EXPECT_EQ(answer.status, 0) << answer.out;
+    EXPECT_NE(answer.out.find("separation was not reached"), std::string::npos) << answer.out;
+    const auto run = nlohmann::json::parse(text_of(folder / "run.json"));
+    EXPECT_TRUE(run["events"]["separation"].is_null());
+    EXPECT_TRUE(run["events"]["first_break"].is_null());
+    EXPECT_TRUE(run["energy"]["trusted"].get<bool>());
+}
+
+TEST_F(Film, ARunThatBlowsUpKeepsWhatItRecordedAndSaysWhy) {
+    const fs::path folder = folder_ / "wild";
+    std::string text = text_of(scene_);
+    text = std::regex_replace(text, std::regex("-80 MN"), "-1e12 MN");
+    text = std::regex_replace(text, std::regex("break_strain   = 0.1"), "");
+    text = std::regex_replace(text, std::regex("until    = \"separation . 0.5 s\"\n"), "");
+    text = std::regex_replace(text, std::regex("until = \"separation\"\n"), "");
+    const fs::path scene = folder_ / "wild.toml";
+    std::ofstream(scene) << text;
+    const Answer answer = hibi("run " + scene.string() + " -q -o " + folder.string());
+    EXPECT_EQ(answer.status, 1);
+    EXPECT_TRUE(std::regex_search(answer.out, std::regex("step [0-9]+, t = .* s: .*; .*stretched")))
+        << answer.out;
+    const auto run = nlohmann::json::parse(text_of(folder / "run.json"));
+    EXPECT_TRUE(run["stopped"].is_string());
+    EXPECT_GT(RunReader(folder).states().size(), 1u);
+    EXPECT_EQ(text_of(folder / "history.csv").find("nan"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hibi
