@@ -46,23 +46,22 @@ TimeMap time_map(const MovieSpec& movie, const Events& events, double begin, dou
     return TimeMap(begin, end, movie.duration, slow, emphasis);
 }
 
-/// Shortly before separation; without one the end of the run; without any break the peak load.
-int poster_frame(const FilmPlan& plan, const Events& events) {
+/// When two thirds of the bonds that break up to separation have done so: the crack is long, its tip still
+/// under strain. Without any break the peak load, or the end of the run.
+int poster_frame(const FilmPlan& plan, const Events& events, std::vector<double> breaks) {
     const int last = static_cast<int>(plan.time.size()) - 1;
-    if (events.first_break && events.separation) {
-        const double from = plan.map.film(events.first_break->time),
-                     to = plan.map.film(events.separation->time);
-        const double wanted = from + 0.9 * (to - from);
-        return std::clamp(static_cast<int>(wanted / plan.map.duration() * last), 0, last);
-    }
-    if (!events.first_break && events.peak_load)
-        return first_frame(plan.time, events.peak_load->time).value_or(last);
-    return last;
+    const double until = events.separation ? events.separation->time : plan.time.back();
+    std::erase_if(breaks, [&](double time) { return !(time <= until); });
+    if (breaks.empty())
+        return events.peak_load ? first_frame(plan.time, events.peak_load->time).value_or(last) : last;
+    std::ranges::sort(breaks);
+    return first_frame(plan.time, breaks[breaks.size() * 2 / 3]).value_or(last);
 }
 
 }  // namespace
 
-FilmPlan plan_film(const MovieSpec& movie, const Events& events, double begin, double end) {
+FilmPlan plan_film(const MovieSpec& movie, const Events& events, const std::vector<double>& broken_at,
+                   double begin, double end) {
     FilmPlan plan{.map = time_map(movie, events, begin, end), .time = {}, .event = {}, .poster = 0};
     const int frames = movie.frames();
     plan.event.resize(frames);
@@ -74,7 +73,7 @@ FilmPlan plan_film(const MovieSpec& movie, const Events& events, double begin, d
     for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
         if (const std::optional<double> time = events.time_of({name, 0}))
             if (const std::optional<int> frame = first_frame(plan.time, *time)) plan.event[*frame] = name;
-    plan.poster = poster_frame(plan, events);
+    plan.poster = poster_frame(plan, events, broken_at);
     return plan;
 }
 

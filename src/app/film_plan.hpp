@@ -15,7 +15,7 @@ struct FilmPlan {
     TimeMap map;
     std::vector<double> time;                     ///< per frame: simulated (s)
     std::vector<std::optional<EventName>> event;  ///< on the first frame at or after it
-    int poster = 0;  ///< the frame that tells most: the crack nearly through, the body not yet in two
+    int poster = 0;  ///< the frame that tells most: the crack long, the body not yet in two
 
     /// The event whose label stands in the picture, for a while after it happened, and how strongly (0..1).
     struct Label {
@@ -32,9 +32,10 @@ struct FilmPlan {
     double film_time(int frame) const;  ///< (s)
 };
 
-/// `begin` and `end` are the times of the first and last recorded state. Slow spans around events that did
-/// not happen are left out. Two events in one frame: separation before first break before peak load before
-/// start and end.
-FilmPlan plan_film(const MovieSpec& movie, const Events& events, double begin, double end);
+/// `broken_at` holds the time of failure of every bond, infinity where intact; `begin` and `end` are the
+/// times of the first and last recorded state. Slow spans around events that did not happen are left out. Two
+/// events in one frame: separation before first break before peak load before start and end.
+FilmPlan plan_film(const MovieSpec& movie, const Events& events, const std::vector<double>& broken_at,
+                   double begin, double end);
 
 }  // namespace hibi

@@ -1,5 +1,6 @@
 #include "app/recorder.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace hibi {
@@ -90,7 +91,7 @@ void Recorder::write_row() {
     const HistoryRow row = watch_.row();
     imbalance_ = row.imbalance;
     last_row_ = row.time;
-    writer_.row(row);
+    if (std::isfinite(row.imbalance)) writer_.row(row);
 }
 
 void Recorder::keep(EvenStates& series) {

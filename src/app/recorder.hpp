@@ -40,7 +40,7 @@ class Recorder {
     void look();
     /// The last state and row.
     void finish();
-    /// Imbalance of the last row [-].
+    /// Imbalance of the last row [-]; not finite where an energy is not: such a row is not recorded.
     double imbalance() const { return imbalance_; }
 
  private:

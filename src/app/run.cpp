@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 
 #include "app/progress.hpp"
@@ -74,7 +75,8 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
         if (simulation.failure()) return simulation.failure()->message;
         pull_triggers(scene, watch.events(), simulation);
         recorder.look();
-        if (recorder.imbalance() > runaway_imbalance && watch.worst_imbalance() > runaway_imbalance)
+        const bool settled = watch.worst_imbalance() > 0;  // the very first rows say nothing yet
+        if (!std::isfinite(recorder.imbalance()) || (settled && recorder.imbalance() > runaway_imbalance))
             return fmt::format("step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %); {}",
                                simulation.steps(), simulation.time(), 100 * recorder.imbalance(),
                                simulation.likely_cause());
@@ -166,7 +168,7 @@ int run_command(const RunOptions& options) {
     const Stopwatch solving;
     Recorder recorder(scene, simulation, watch, writer);
     summary.stopped = solve(scene, simulation, watch, recorder, options.quiet);
-    recorder.finish();
+    if (!summary.stopped) recorder.finish();
     summary.seconds["solve"] = solving.seconds();
     summary.broken = simulation.broken();
     summary.steps = simulation.steps();

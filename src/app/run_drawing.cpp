@@ -57,8 +57,8 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererO
       range_(scene.view.range ? *scene.view.range : colour_range(run, scene.view.field)),
       until_(run.summary().events.separation ? run.summary().events.separation->time
                                              : std::numeric_limits<double>::infinity()),
-      plan_(
-          plan_film(scene.movie, run.summary().events, run.states().front().time, run.states().back().time)),
+      plan_(plan_film(scene.movie, run.summary().events, run.broken_at(), run.states().front().time,
+                      run.states().back().time)),
       source_(run, view_, range_),
       overlay_(view_, content(scene)),
       renderer_(view_, run.topology(), options),

@@ -29,7 +29,7 @@ int frame_of(const FilmPlan& plan, EventName name) {
 }
 
 TEST(FilmPlan, BeginsAndEndsWithTheRunAndHasTheOrderedNumberOfFrames) {
-    const FilmPlan plan = plan_film(two_seconds(), events(), 0, 2);
+    const FilmPlan plan = plan_film(two_seconds(), events(), {}, 0, 2);
     ASSERT_EQ(plan.time.size(), 50u);  // 2 s at 25 frames per second
     EXPECT_EQ(plan.time.front(), 0);
     EXPECT_EQ(plan.time.back(), 2);
@@ -39,7 +39,7 @@ TEST(FilmPlan, BeginsAndEndsWithTheRunAndHasTheOrderedNumberOfFrames) {
 }
 
 TEST(FilmPlan, AnEventBelongsToTheFirstFrameAtOrAfterIt) {
-    const FilmPlan plan = plan_film(two_seconds(), events(), 0, 2);
+    const FilmPlan plan = plan_film(two_seconds(), events(), {}, 0, 2);
     for (const auto& [name, time] : {std::pair(EventName::first_break, 1.0),
                                      {EventName::peak_load, 1.2},
                                      {EventName::separation, 1.5}}) {
@@ -55,7 +55,7 @@ TEST(FilmPlan, EventsThatDidNotHappenAreLeftOut) {
     none.end = 2;
     MovieSpec movie = two_seconds();
     movie.slow = {{{EventName::first_break, 0}, 0.5, 0.05}};
-    const FilmPlan plan = plan_film(movie, none, 0, 2);
+    const FilmPlan plan = plan_film(movie, none, {}, 0, 2);
     EXPECT_EQ(frame_of(plan, EventName::first_break), 50);
     for (int k = 0; k < 50; ++k) {
         EXPECT_FALSE(plan.label(k));
@@ -67,7 +67,7 @@ TEST(FilmPlan, EventsThatDidNotHappenAreLeftOut) {
 TEST(FilmPlan, ASlowSpanBeginsAFifthOfItBeforeTheEvent) {
     MovieSpec movie = two_seconds();
     movie.slow = {{{EventName::first_break, 0}, 0.5, 0.05}};
-    const FilmPlan plan = plan_film(movie, events(), 0, 2);
+    const FilmPlan plan = plan_film(movie, events(), {}, 0, 2);
     for (int k = 0; k < 50; ++k) {
         const double t = plan.time[k];
         if (std::abs(t - 0.9) < 1e-3 || std::abs(t - 1.4) < 1e-3) continue;  // at the very change
@@ -81,7 +81,7 @@ TEST(FilmPlan, ASlowSpanBeginsAFifthOfItBeforeTheEvent) {
 TEST(FilmPlan, LabelsStandForAWhileAndFade) {
     MovieSpec movie = two_seconds();
     movie.duration = 12;
-    const FilmPlan plan = plan_film(movie, events(), 0, 2);
+    const FilmPlan plan = plan_film(movie, events(), {}, 0, 2);
     const int frame = frame_of(plan, EventName::first_break);
     EXPECT_FALSE(plan.label(frame - 1));
     ASSERT_TRUE(plan.label(frame));
@@ -95,23 +95,31 @@ TEST(FilmPlan, LabelsStandForAWhileAndFade) {
 TEST(FilmPlan, AFlashLastsSixTenthsOfASecondOfPlayback) {
     MovieSpec movie = two_seconds();
     movie.duration = 12;
-    const FilmPlan plan = plan_film(movie, events(), 0, 2);
+    const FilmPlan plan = plan_film(movie, events(), {}, 0, 2);
     const int frame = frame_of(plan, EventName::first_break);
     EXPECT_NEAR(plan.freshness(frame, plan.time[frame]), 1, 1e-9);
     EXPECT_NEAR(plan.freshness(frame + 7, plan.time[frame]), 1 - 7 / 25.0 / 0.6, 0.01);
     EXPECT_EQ(plan.freshness(frame + 16, plan.time[frame]), 0);
 }
 
-TEST(FilmPlan, ThePosterShowsTheCrackJustBeforeSeparation) {
-    const FilmPlan plan = plan_film(two_seconds(), events(), 0, 2);
-    EXPECT_GT(plan.time[plan.poster], 1.3);
-    EXPECT_LT(plan.time[plan.poster], 1.5);
+TEST(FilmPlan, ThePosterShowsTheCrackWhenTwoThirdsOfTheBondsAreBroken) {
+    // Six bonds up to separation, one later, one never: the fifth breaks at 1.35 s.
+    const std::vector<double> broken_at = {1.35, 1.0, 1.4, 1.8, 1.1, 1.2, 1.3, Bonds::intact};
+    const FilmPlan plan = plan_film(two_seconds(), events(), broken_at, 0, 2);
+    EXPECT_GE(plan.time[plan.poster], 1.35);
+    EXPECT_LT(plan.time[plan.poster - 1], 1.35);
+}
+
+TEST(FilmPlan, WithoutABreakThePosterShowsThePeakLoad) {
+    const FilmPlan plan = plan_film(two_seconds(), events(), {Bonds::intact}, 0, 2);
+    EXPECT_GE(plan.time[plan.poster], 1.2);
+    EXPECT_LT(plan.time[plan.poster - 1], 1.2);
 }
 
 TEST(FilmPlan, OneFrameIsTheEnd) {
     MovieSpec movie;
     movie.duration = 0.04;
-    const FilmPlan plan = plan_film(movie, events(), 0, 2);
+    const FilmPlan plan = plan_film(movie, events(), {}, 0, 2);
     ASSERT_EQ(plan.time.size(), 1u);
     EXPECT_EQ(plan.time[0], 2);
     EXPECT_EQ(plan.smallest_step(), 0);

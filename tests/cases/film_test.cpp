@@ -220,7 +220,7 @@ TEST_F(Film, AnEventThatIsNotReachedIsAWarningAndNull) {
 TEST_F(Film, ARunThatBlowsUpKeepsWhatItRecordedAndSaysWhy) {
     const fs::path folder = folder_ / "wild";
     std::string text = text_of(scene_);
-    text = std::regex_replace(text, std::regex("-80 MN"), "-1e12 MN");
+    text = std::regex_replace(text, std::regex("-80 MN"), "-80 MN * (t / 1 s)^160");
     text = std::regex_replace(text, std::regex("break_strain   = 0.1"), "");
     text = std::regex_replace(text, std::regex("until    = \"separation . 0.5 s\"\n"), "");
     text = std::regex_replace(text, std::regex("until = \"separation\"\n"), "");
