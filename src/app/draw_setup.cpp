@@ -39,8 +39,13 @@ void draw_setup(const Scene& scene, const std::filesystem::path& png, const Draw
     picture.x.assign(x.begin(), x.end());
     picture.y.assign(y.begin(), y.end());
     picture.intact = drawn_bonds(topology, view.bonds);
-    picture.camera =
-        camera_for(view.window ? *view.window : box, view.window.has_value(), overlay.plot(), marks, view);
+    std::vector<Reserved> reserved;
+    for (const Mark& mark : marks)
+        for (const Reserved& r : reserve(mark, x, y, 1, view)) reserved.push_back(r);
+    if (const auto& w = view.window)
+        picture.camera = Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], overlay.plot());
+    else
+        picture.camera = camera_for(box, reserved, overlay.plot());
 
     Image image(view.width, view.height);
     renderer.draw(picture, image);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -119,20 +120,6 @@ std::vector<Mark> find_marks(const Topology& topology, bool supports, bool loads
     return marks;
 }
 
-std::array<double, 4> room_for(std::span<const Mark> marks, const View& view) {
-    std::array<double, 4> room{0, 0, 0, 0};
-    for (const Mark& mark : marks) {
-        const double reach = symbol_reach(mark.kind, view);
-        const double sign = mark.kind == Symbol::Kind::arrow && !mark.pulls ? -1 : 1;
-        const double dx = sign * mark.towards[0] * reach, dy = sign * mark.towards[1] * reach;
-        room[0] = std::max(room[0], -dx);
-        room[1] = std::max(room[1], dy);
-        room[2] = std::max(room[2], dx);
-        room[3] = std::max(room[3], -dy);
-    }
-    return room;
-}
-
 Symbol place_mark(const Mark& mark, std::span<const double> x, std::span<const double> y,
                   const Camera2& camera, double size, double unit) {
     Symbol symbol;
@@ -153,28 +140,65 @@ Symbol place_mark(const Mark& mark, std::span<const double> x, std::span<const d
         2 * mark.radius * camera.scale * last;  // in the unloaded body: the number never changes
     const int gaps = std::min(last, std::max(1, static_cast<int>(length / (arrow_distance * unit))));
     if (last > 0) {
-        std::vector<std::array<double, 2>> chosen;
-        for (int k = 0; k <= gaps; ++k) chosen.push_back(symbol.points[(k * last + gaps / 2) / gaps]);
+        std::vector<std::array<double, 2>> chosen;  // evenly spread, also between particles
+        for (int k = 0; k <= gaps; ++k) {
+            const double at = static_cast<double>(k) * last / gaps;
+            const int i = std::min(static_cast<int>(at), last - 1);
+            const std::array<double, 2>&a = symbol.points[i], &b = symbol.points[i + 1];
+            chosen.push_back({a[0] + (at - i) * (b[0] - a[0]), a[1] + (at - i) * (b[1] - a[1])});
+        }
         symbol.points = chosen;
     }
     return symbol;
 }
 
-Camera2 camera_for(const std::array<double, 4>& box, bool fixed, const PixelRect& plot,
-                   std::span<const Mark> marks, const View& view) {
-    if (fixed) return Camera2::fit(box[0], box[1], box[2], box[3], plot);
-    std::array<double, 4> room = room_for(marks, view);
-    for (int side = 0; side < 4; ++side)  // small pictures: the body goes before the symbols
-        room[side] = std::min(room[side], 0.25 * (side % 2 == 0 ? plot.width : plot.height));
-    const PixelRect inner = {plot.x + room[0], plot.y + room[1], plot.width - room[0] - room[2],
-                             plot.height - room[1] - room[3]};
-    const double margin = window_margin * std::max(box[2] - box[0], box[3] - box[1]);
-    Camera2 camera = Camera2::fit(box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin, inner);
-    // The same picture, but clipped to the whole plot.
-    camera.centre_x -= (inner.x + inner.width / 2 - plot.x - plot.width / 2) / camera.scale;
-    camera.centre_y += (inner.y + inner.height / 2 - plot.y - plot.height / 2) / camera.scale;
-    camera.rect = plot;
-    return camera;
+std::vector<Reserved> reserve(const Mark& mark, std::span<const double> x, std::span<const double> y,
+                              double size, const View& view) {
+    const bool arrow = mark.kind == Symbol::Kind::arrow;
+    const double reach = symbol_reach(mark.kind, view) * (arrow ? std::min(std::abs(size), 1.0) : 1);
+    const double sign =
+        arrow && !mark.pulls ? -1 : 1;  // a load that turns round stays on its side of the body
+    const double dx = sign * mark.towards[0] * reach, dy = sign * mark.towards[1] * reach;
+    std::vector<Reserved> reserved;
+    for (const int i : mark.particles)
+        reserved.push_back({x[i] + std::copysign(mark.radius, dx),
+                            y[i] + std::copysign(mark.radius, dy),
+                            {std::max(0.0, -dx), std::max(0.0, dy), std::max(0.0, dx), std::max(0.0, -dy)}});
+    return reserved;
+}
+
+Camera2 camera_for(const std::array<double, 4>& window, std::span<const Reserved> reserved,
+                   const PixelRect& plot) {
+    const double margin = window_margin * std::max(window[2] - window[0], window[3] - window[1]);
+    std::vector<Reserved> all = {{window[0] - margin, window[1] - margin},
+                                 {window[2] + margin, window[3] + margin}};
+    for (Reserved r : reserved) {
+        if (!std::isfinite(r.x) || !std::isfinite(r.y)) continue;
+        for (int side = 0; side < 4; ++side)  // small pictures: the body goes before the symbols
+            r.room[side] = std::min(r.room[side], 0.25 * (side % 2 == 0 ? plot.width : plot.height));
+        all.push_back(r);
+    }
+    // Box around everything, in pixels from the origin of the world, for a number of pixels per metre.
+    const auto box = [&](double scale) {
+        constexpr double far = std::numeric_limits<double>::infinity();
+        std::array<double, 4> b{far, far, -far, -far};  // left, top, right, bottom
+        for (const Reserved& r : all)
+            b = {std::min(b[0], r.x * scale - r.room[0]), std::min(b[1], -r.y * scale - r.room[1]),
+                 std::max(b[2], r.x * scale + r.room[2]), std::max(b[3], -r.y * scale + r.room[3])};
+        return b;
+    };
+    const auto fits = [&](double scale) {
+        const std::array<double, 4> b = box(scale);
+        return b[2] - b[0] <= plot.width * (1 + 1e-9) && b[3] - b[1] <= plot.height * (1 + 1e-9);
+    };
+    double good = 0, scale = Camera2::fit(all[0].x, all[0].y, all[1].x, all[1].y, plot).scale;
+    if (!fits(scale)) {  // halve the interval between a scale that fits and one that does not
+        double bad = scale;
+        for (int k = 0; k < 40; ++k) (fits((good + bad) / 2) ? good : bad) = (good + bad) / 2;
+        scale = good;
+    }
+    const std::array<double, 4> b = box(scale);
+    return {scale, (b[0] + b[2]) / 2 / scale, -(b[1] + b[3]) / 2 / scale, plot};
 }
 
 }  // namespace hibi

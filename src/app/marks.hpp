@@ -22,13 +22,20 @@ struct Mark {
 /// where the arrows come from, or where they go to if the body itself lies in their way.
 std::vector<Mark> find_marks(const Topology& topology, bool supports, bool loads);
 
-/// Room that the marks need beside the body, in pixels: left, top, right, bottom.
-std::array<double, 4> room_for(std::span<const Mark> marks, const View& view);
+/// A place (m) that has to be in the picture, with room around it in pixels: left, top, right, bottom.
+struct Reserved {
+    double x = 0, y = 0;
+    std::array<double, 4> room{};
+};
 
-/// The window into the plot, with room at the sides for symbols and a margin; a fixed one (of the user's) is
-/// taken as it is.
-Camera2 camera_for(const std::array<double, 4>& window, bool fixed, const PixelRect& plot,
-                   std::span<const Mark> marks, const View& view);
+/// The places of a mark's particles with the room that its symbol needs; arguments as in place_mark.
+std::vector<Reserved> reserve(const Mark& mark, std::span<const double> x, std::span<const double> y,
+                              double size, const View& view);
+
+/// Shows the window (x0, y0, x1, y1 in m), a margin and all reserved places in the plot, as large as
+/// possible.
+Camera2 camera_for(const std::array<double, 4>& window, std::span<const Reserved> reserved,
+                   const PixelRect& plot);
 
 /// The symbol at this moment: x, y are positions of all particles (m). `size` is the load's share of its
 /// largest value, negative where it has changed sign. Arrows are thinned out to a readable distance.

@@ -1,5 +1,6 @@
 #include "app/recorder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,9 +33,9 @@ Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>
       watch_(watch),
       writer_(writer),
       row_interval_(scene.run.max_time / rows_over_max_time),
-      most_(2 * static_cast<std::size_t>(scene.movie.frames())),
-      even_(0, scene.run.max_time / (2 * static_cast<double>(most_)), most_),
-      ring_interval_(scene.run.max_time / (8 * static_cast<double>(most_))) {
+      most_(2 * std::max<std::size_t>(25, scene.movie.frames() / 2)),  // even; about one state per frame
+      even_(0, scene.run.max_time / (4 * static_cast<double>(most_)), most_),
+      ring_interval_(scene.run.max_time / (16 * static_cast<double>(most_))) {
     for (const SlowSpec& slow : scene.movie.slow) {
         if (slow.around.event && *slow.around.event != EventName::start) continue;
         const double begin = slow.around.offset - slow.span / 5;

@@ -63,8 +63,6 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererO
       overlay_(view_, content(scene)),
       renderer_(view_, run.topology(), options),
       marks_(find_marks(run.topology(), view_.shows("supports"), view_.shows("loads"))),
-      camera_(camera_for(view_.window ? *view_.window : body_window(run, view_), view_.window.has_value(),
-                         overlay_.plot(), marks_, view_)),
       unit_(lay_out(view_.width, view_.height, {}).unit) {
     for (int k = 0; k < static_cast<int>(run.topology().loads.size()); ++k) {
         double largest = 0;
@@ -73,6 +71,7 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererO
                 largest = std::max(largest, std::abs(mark_quantity(run.topology(), k, row)));
         largest_.push_back(largest);
     }
+    camera_ = camera();
 }
 
 int RunDrawing::draw(int frame, Image& image) {
@@ -100,6 +99,25 @@ int RunDrawing::draw(int frame, Image& image) {
     }
     overlay_.draw(image, over);
     return over.broken;
+}
+
+/// The window of the user's, or the body in all states that count, with its symbols at some of them.
+Camera2 RunDrawing::camera() {
+    const PixelRect plot = overlay_.plot();
+    if (const auto& w = view_.window) return Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], plot);
+    std::vector<Reserved> reserved;
+    const int last = last_counting_state(run_);
+    constexpr int samples = 16;
+    for (int k = 0; k <= samples && !marks_.empty(); ++k) {
+        const double time = run_.states()[last * k / samples].time;
+        source_.at(time);
+        for (const Mark& mark : marks_) {
+            const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
+            for (const Reserved& r : reserve(mark, source_.x(), source_.y(), size, view_))
+                reserved.push_back(r);
+        }
+    }
+    return camera_for(body_window(run_, view_), reserved, plot);
 }
 
 double RunDrawing::load_size(int load, double time) const {

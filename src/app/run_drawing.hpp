@@ -21,12 +21,14 @@ class RunDrawing {
 
     const FilmPlan& plan() const { return plan_; }
     std::string renderer() const { return renderer_.description(); }
-    /// The picture of a frame, everything included; cheapest in rising order. Returns how many bonds it shows as broken.
+    /// The picture of a frame, everything included; cheapest in rising order. Returns how many bonds it shows
+    /// as broken.
     int draw(int frame, Image& image);
 
  private:
     double load_size(int load, double time) const;
     OverlayContent content(const Scene& scene) const;
+    Camera2 camera();
 
     const RunReader& run_;
     View view_;
@@ -37,7 +39,7 @@ class RunDrawing {
     Overlay overlay_;
     Renderer renderer_;
     std::vector<Mark> marks_;
-    Camera2 camera_;
+    Camera2 camera_{};
     double unit_;                  ///< Layout::unit
     std::vector<double> largest_;  ///< per load: largest magnitude of what its arrows show
 };

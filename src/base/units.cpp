@@ -110,13 +110,19 @@ std::optional<Quantity> unit_atom(const std::string& letters) {
     return unit;
 }
 
+double tidy_factor(double factor) { return std::strtod(fmt::format("{:.14e}", factor).c_str(), nullptr); }
+
 std::optional<Quantity> parse_unit(const std::string& text) {
     Quantity result{1, {}};
     const char* at = text.c_str();
     bool divide = false, want_atom = false, first = true;
     for (;;) {
         while (*at == ' ') ++at;
-        if (*at == '\0') return want_atom ? std::nullopt : std::optional(result);
+        if (*at == '\0') {
+            if (want_atom) return {};
+            result.value = tidy_factor(result.value);
+            return result;
+        }
         if (*at == '*' || *at == '/') {
             if (want_atom || first) return {};
             divide = *at++ == '/';

@@ -27,6 +27,10 @@ struct Quantity {
 /// std::runtime_error where the unit table of UDUNITS-2 is not installed.
 std::optional<Quantity> unit_atom(const std::string& letters);
 
+/// A factor between units without the rounding of the way it was computed: "g/cm^3" is 1000, not
+/// 1000.0000000000001.
+double tidy_factor(double factor);
+
 /// A unit such as "kg/m^3", "MPa m^0.5", "1/s", "" (a pure number): atoms with powers, multiplied by a space
 /// or *, divided by /. Nothing where it is none.
 std::optional<Quantity> parse_unit(const std::string& text);

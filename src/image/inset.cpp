@@ -75,7 +75,8 @@ void Inset::Line::draw(cairo_t* cairo, double now, double dot) const {
     std::array<double, 2> end = points[upto - 1];
     if (upto < static_cast<int>(points.size())) {  // to the very moment, so that the dot moves evenly
         const double share = (now - time[upto - 1]) / (time[upto] - time[upto - 1]);
-        for (int c = 0; c < 2; ++c) end[c] += share * (points[upto][c] - end[c]);
+        end[0] += share * (points[upto][0] - end[0]);
+        if (dot > 0) end[1] += share * (points[upto][1] - end[1]);  // a count jumps, it does not grow
     }
     for (int i = 0; i < upto; ++i) cairo_line_to(cairo, points[i][0], points[i][1]);
     cairo_line_to(cairo, end[0], end[1]);

@@ -220,7 +220,7 @@ Load make_load(const Scene& scene, const Model<2>& model, const LoadSpec& spec, 
         const double sum = std::accumulate(area.begin(), area.end(), 0.0);
         for (const double A : area)
             load.share.push_back(load.kind == Load::Kind::pressure ? Vec3(A * outward) : Vec3(A / sum, 0, 0));
-        load.direction = outward;
+        load.direction = load.kind == Load::Kind::pressure ? Vec3(Vec3::Zero() - outward) : outward;
     } else {
         load.particles = select(model, *spec.where, path, "[[load]]", problems);
         if (load.kind == Load::Kind::pressure)

@@ -283,14 +283,6 @@ void check_rest(const Scene& scene, const Possible& possible, Problems& problems
 }  // namespace
 
 void check_scene(const Scene& scene, Problems& problems) {
-    Possible possible;
-    for (const BodySpec& body : scene.bodies)
-        for (const Material& material : scene.materials)
-            possible.breaks |= material.name == body.material && material.can_break();
-    // A material that could not be read might have been one that breaks.
-    possible.breaks |= problems.concerns("material") || problems.concerns("body");
-    possible.loaded = !scene.loads.empty() || problems.concerns("load");
-    possible.held = !scene.fixes.empty() || problems.concerns("fix");
     check_model(scene, problems);
     check_materials(scene, problems);
     check_bodies(scene, problems);
@@ -299,6 +291,15 @@ void check_scene(const Scene& scene, Problems& problems) {
     check_names(scene.notches, "notch", problems);
     check_names(scene.fixes, "fix", problems);
     check_names(scene.loads, "load", problems);
+
+    Possible possible;
+    for (const BodySpec& body : scene.bodies)
+        for (const Material& material : scene.materials)
+            possible.breaks |= material.name == body.material && material.can_break();
+    // A material that could not be read might have been one that breaks.
+    possible.breaks |= problems.concerns("material") || problems.concerns("body");
+    possible.loaded = !scene.loads.empty() || problems.concerns("load");
+    possible.held = !scene.fixes.empty() || problems.concerns("fix");
     check_loads(scene, possible, problems);
     check_rest(scene, possible, problems);
 }

@@ -145,6 +145,7 @@ SceneError located(const toml::parse_error& error) {
             result.column > static_cast<int>(token.size())) {
             result.column -= static_cast<int>(token.size());
             result.length = static_cast<int>(token.size());
+            result.message = fmt::format("cannot read \"{}\" as a value", token);
         }
         result.hint = "a number must fit into double precision; a text stands in \"quotes\"";
     } else if (result.message.find("encountered end-of-file") != std::string::npos) {

@@ -6,11 +6,9 @@
 
 namespace hibi {
 
-constexpr int rank_of_constant = 6;  // above a sum, below a product: its unit would run into what follows
-
 // clang-format off
 const std::array<Operator, static_cast<int>(Op::count)> operators{{
-    {"", 0, rank_of_constant, nullptr},
+    {"", 0, 11, nullptr},
     {"x", 0, 11, nullptr},
     {"y", 0, 11, nullptr},
     {"z", 0, 11, nullptr},
@@ -67,6 +65,11 @@ double run(const Program& program, const Vec3& X, double t) {
     return stack[0];
 }
 
+/// A unit would run into what follows, so it stands in parentheses within products; and so does a sign.
+int rank_of_constant(const Instruction& constant) {
+    return !constant.dimension.is_plain() ? 6 : std::signbit(constant.value) ? 8 : 11;
+}
+
 std::string constant_text(const Instruction& constant) {
     std::string unit = si_symbol(constant.dimension);
     if (unit.starts_with("1/")) unit = unit.substr(2) + "^-1";
@@ -106,8 +109,12 @@ std::string Expression::text() const {
     std::vector<Part> parts;
     for (const Instruction& instruction : *program_) {
         const Operator& o = operator_of(instruction.op);
+        if (instruction.op == Op::constant) {
+            parts.push_back({constant_text(instruction), rank_of_constant(instruction)});
+            continue;
+        }
         if (o.operands == 0) {
-            parts.push_back({instruction.op == Op::constant ? constant_text(instruction) : o.symbol, o.rank});
+            parts.push_back({o.symbol, o.rank});
             continue;
         }
         Part second;

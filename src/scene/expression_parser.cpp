@@ -92,15 +92,15 @@ class Parser {
     }
 
     [[noreturn]] void unexpected() {
-        int bytes = 1;  // a whole character of UTF-8
-        while ((peek(bytes) & 0xC0) == 0x80) ++bytes;
+        if (at_end()) throw ExpressionError(std::max(0, last_end_ - 1), 1, "the expression ends too early");
+        int bytes = std::max(1, static_cast<int>(name_at(at_).size()));
+        while ((peek(bytes) & 0xC0) == 0x80) ++bytes;  // a whole character of UTF-8
         const std::string found = text_.substr(at_, bytes);
         std::string hint;
-        if (at_end()) throw ExpressionError(std::max(0, last_end_ - 1), 1, "the expression ends too early");
         if (found == ",") hint = "the decimal sign is a point";
         if (found == "=") hint = "compare with < <= > >=; positions are never exactly equal";
         if (found == "&" || found == "|" || found == "!") hint = "write and, or, not";
-        if (!name_at(at_).empty()) hint = "put an operator such as * before it";
+        if (starts_name(found[0])) hint = "put an operator such as * before it";
         throw ExpressionError(at_, bytes, fmt::format("unexpected \"{}\"", found), hint);
     }
 
@@ -318,7 +318,7 @@ class Parser {
         Quantity unit{1, {}};
         while (unit_follows(unit)) {
         }
-        value *= unit.value;
+        value *= tidy_factor(unit.value);
         ++numbers;
         if (last_end_ - begin > digits) ++names_used;  // has a unit
         Type type{unit.dimension, false, true, begin, last_end_};
@@ -460,6 +460,7 @@ class Parser {
                 dimension = result.dimension;
             else if (op != Op::step)
                 want_plain(result, name);
+            result.begin = begin;
             result = emit(op, result, nullptr, dimension);
         }
         result.begin = begin;

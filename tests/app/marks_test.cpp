@@ -60,8 +60,11 @@ TEST(Marks, AForceAlongAFacePushesOntoItsEnd) {
 TEST(Marks, APullBeginsAtTheFaceAndAPushEndsThere) {
     Topology t = plate();
     t.loads[0].direction = Vec3::UnitX();
+    for (const int i : column(8)) t.loads[0].particles.push_back(i);  // behind the face: must not show
     EXPECT_TRUE(find_marks(t, false, true).at(0).pulls);
-    EXPECT_EQ(find_marks(t, false, true).at(0).particles.size(), 5u);
+    std::vector<int> line = find_marks(t, false, true).at(0).particles;
+    std::ranges::sort(line);
+    EXPECT_EQ(line, column(9));
     t.loads[0].direction = -Vec3::UnitX();
     EXPECT_FALSE(find_marks(t, false, true).at(0).pulls);
 }
@@ -72,16 +75,6 @@ TEST(Marks, AbsentOnesAreNotDrawn) {
     t.supports[0].particles.clear();
     t.loads[0].particles.clear();
     EXPECT_TRUE(find_marks(t, true, true).empty());
-}
-
-TEST(Marks, RoomIsLeftWhereTheyStand) {
-    const View view;
-    const std::vector<Mark> marks = find_marks(plate(), true, true);
-    const std::array<double, 4> room = room_for(marks, view);  // left, top, right, bottom
-    EXPECT_DOUBLE_EQ(room[0], symbol_reach(Symbol::Kind::clamp, view));
-    EXPECT_DOUBLE_EQ(room[1], symbol_reach(Symbol::Kind::arrow, view));
-    EXPECT_EQ(room[2], 0);
-    EXPECT_EQ(room[3], 0);
 }
 
 TEST(Marks, SymbolsFollowTheirParticlesAndTurnWithTheLoad) {
@@ -101,19 +94,66 @@ TEST(Marks, SymbolsFollowTheirParticlesAndTurnWithTheLoad) {
     EXPECT_EQ(up.size, 0.5);
 }
 
-TEST(Camera, ShowsTheWindowInsideThePlotAndKeepsRoomForSymbols) {
+TEST(Marks, ArrowsOfALineAreEvenlySpreadAndFarEnoughApart) {
+    Topology t = plate();
+    t.loads[0].particles = {40, 41, 42, 43, 44, 45, 46, 47, 48, 49};  // the top row, pushed down
+    const Mark mark = find_marks(t, false, true).at(0);
+    std::vector<double> x, y;
+    for (const Vec3& X : t.reference_position) x.push_back(X.x()), y.push_back(X.y());
+    const Camera2 camera =
+        Camera2::fit(0, 0, 10, 5, {0, 0, 150, 75});  // 15 pixels per metre: too close for one each
+    const auto points = place_mark(mark, x, y, camera, 1, 1).points;
+    ASSERT_EQ(points.size(), 4u);  // 135 pixels hold three distances of at least 34
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(std::abs(points[k][0] - points[0][0]), 45 * k, 1e-9);
+}
+
+/// Positions of the unloaded plate, 10 m x 5 m.
+struct Positions {
+    std::vector<double> x, y;
+    explicit Positions(const Topology& t) {
+        for (const Vec3& X : t.reference_position) x.push_back(X.x()), y.push_back(X.y());
+    }
+};
+
+TEST(Camera, ShowsWindowAndSymbolsInsideThePlotAsLargeAsPossible) {
     const View view;
-    const std::vector<Mark> marks = find_marks(plate(), true, true);
+    const Positions at(plate());
     const PixelRect plot{60, 150, 1400, 800};
-    const Camera2 camera = camera_for({0, 0, 10, 5}, false, plot, marks, view);
-    EXPECT_GE(camera.pixel_x(0) - plot.x, symbol_reach(Symbol::Kind::clamp, view));
-    EXPECT_GE(camera.pixel_y(5) - plot.y, symbol_reach(Symbol::Kind::arrow, view));
-    EXPECT_LE(camera.pixel_x(10), plot.x + plot.width);
-    EXPECT_LE(camera.pixel_y(0), plot.y + plot.height);
+    const double clamp = symbol_reach(Symbol::Kind::clamp, view),
+                 arrow = symbol_reach(Symbol::Kind::arrow, view);
+    std::vector<Reserved> reserved;
+    for (const Mark& mark : find_marks(plate(), true, true))
+        for (const Reserved& r : reserve(mark, at.x, at.y, 1, view)) reserved.push_back(r);
+    const Camera2 camera = camera_for({0, 0, 10, 5}, reserved, plot);
+    const double left = camera.pixel_x(0) - clamp - plot.x, top = camera.pixel_y(5) - arrow - plot.y;
+    const double right = plot.x + plot.width - camera.pixel_x(10),
+                 bottom = plot.y + plot.height - camera.pixel_y(0);
+    for (const double free : {left, top, right, bottom}) EXPECT_GE(free, -1e-6);
+    // No larger scale would fit: one way nothing is left but the margin of 3 % of 10 m.
+    EXPECT_NEAR(std::min(left + right, top + bottom), 0.3 * camera.scale, 1);
     EXPECT_EQ(camera.rect.width, plot.width);
-    const Camera2 fixed = camera_for({0, 0, 14, 8}, true, plot, marks, view);
-    EXPECT_DOUBLE_EQ(fixed.pixel_x(0), plot.x);
-    EXPECT_DOUBLE_EQ(fixed.pixel_y(8), plot.y);
+}
+
+TEST(Camera, WithoutSymbolsIsAPlainFit) {
+    const PixelRect plot{60, 150, 1400, 800};
+    const Camera2 camera = camera_for({0, 0, 10, 5}, {}, plot);
+    EXPECT_NEAR(camera.scale, 1400 / 10.6, 1e-9);  // 10 m and twice the margin of 3 %
+    EXPECT_NEAR(camera.pixel_x(5), 760, 1e-9);
+    EXPECT_NEAR(camera.pixel_y(2.5), 550, 1e-9);
+}
+
+TEST(Camera, ASmallLoadNeedsLessRoom) {
+    const View view;
+    const Positions at(plate());
+    const Mark mark = find_marks(plate(), false, true).at(0);  // pushes down from above
+    const Reserved full = reserve(mark, at.x, at.y, 1, view).at(0),
+                   half = reserve(mark, at.x, at.y, 0.5, view).at(0);
+    EXPECT_DOUBLE_EQ(full.room[1], symbol_reach(Symbol::Kind::arrow, view));
+    EXPECT_DOUBLE_EQ(half.room[1], full.room[1] / 2);
+    EXPECT_EQ(full.room[3], 0);
+    EXPECT_DOUBLE_EQ(full.y, 5);  // the upper edge of the uppermost particle
+    // Turned round it pulls upward from the same edge.
+    EXPECT_DOUBLE_EQ(reserve(mark, at.x, at.y, -1, view).at(0).room[1], full.room[1]);
 }
 
 }  // namespace

@@ -105,6 +105,10 @@ TEST_F(WholeRun, ASignedFieldHasASymmetricRoundRange) {
     EXPECT_EQ(colour_range(*run_, "energy")[0], 0);
     EXPECT_NEAR(colour_range(*run_, "energy")[1], 4, 1e-9);                         // height^2 = 4
     EXPECT_LT(colour_range(*run_, "damage")[0], colour_range(*run_, "damage")[1]);  // zero everywhere
+    cantilever_.rows = 4;  // 0.2 * 1.5 / 4 = 0.075, rounded up
+    cantilever_.write(folder_.path());
+    EXPECT_NEAR(colour_range(RunReader(folder_.path()), "bond_strain")[1], 0.08, 1e-9);
+    EXPECT_NEAR(colour_range(RunReader(folder_.path()), "energy")[1], 2.5, 1e-9);  // 1.5^2 = 2.25
 }
 
 }  // namespace

@@ -45,11 +45,15 @@ TEST_P(Parallel, SumOfNothingIsZero) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, Parallel, ::testing::Values(1, 2, 3, 8));
 
-TEST(Threads, ZeroMeansWhatTheMachineHas) {
-    set_threads(3);
-    EXPECT_EQ(threads(), 3);
+TEST(Threads, AreAsManyAsSetAndZeroMeansWhatTheMachineHas) {
+    const int of_machine = threads();
+    EXPECT_GE(of_machine, 1);
+    for (const int count : {3, 5}) {
+        set_threads(count);
+        EXPECT_EQ(threads(), count);
+    }
     set_threads(0);
-    EXPECT_GE(threads(), 1);
+    EXPECT_EQ(threads(), of_machine);
 }
 
 }  // namespace

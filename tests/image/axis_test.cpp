@@ -12,6 +12,7 @@ TEST(Scale, PrefixSuitsTheLargestValue) {
     EXPECT_DOUBLE_EQ(scale_for(3.6e7, "N").factor, 1e-6);
     EXPECT_EQ(scale_for(1000, "Pa").unit, "kPa");
     EXPECT_EQ(scale_for(999, "Pa").unit, "Pa");
+    EXPECT_EQ(scale_for(1e6 * (1 - 1e-12), "N").unit, "MN");  // a million but for rounding
     EXPECT_EQ(scale_for(-2e-4, "m").unit, "µm");
     EXPECT_EQ(scale_for(7200, "s").unit, "s");
     EXPECT_EQ(scale_for(0, "N").unit, "N");

@@ -97,6 +97,12 @@ TEST(Overlay, NothingReachesTheEdgeOfThePictureEvenWithLongTexts) {
             const Image image = drawn(view, frame, c), empty = blank(view);
             ASSERT_GT(differences(image, empty, 0, 0, w, h), w >= 320 ? 500 : -1);
             const int edge = 3;
+            // Beside the title, where what is too long would be cut.
+            const PixelRect title = lay_out(w, h, {}).title;
+            const int beside = static_cast<int>(title.x + title.width) + 2;
+            EXPECT_EQ(
+                differences(image, empty, beside, 0, beside + 5, static_cast<int>(title.y + title.height)),
+                0);
             EXPECT_EQ(differences(image, empty, 0, 0, w, edge), 0) << w << "x" << h;
             EXPECT_EQ(differences(image, empty, 0, h - edge, w, h), 0) << w << "x" << h;
             EXPECT_EQ(differences(image, empty, 0, 0, edge, h), 0) << w << "x" << h;

@@ -63,6 +63,9 @@ TEST(Png, EveryTruncationIsAnErrorNamingTheFile) {
     for (std::size_t size = 0; size < whole.size(); size += 97) {
         write_bytes(file, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
         EXPECT_NE(message_of_reading(file).find("cut.png"), std::string::npos) << size;
+        if (size > whole.size() / 2) {
+            EXPECT_NE(message_of_reading(file).find("ends too early"), std::string::npos) << size;
+        }
     }
 }
 

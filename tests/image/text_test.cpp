@@ -30,7 +30,8 @@ TEST(Text, AMissingGlyphIsAnErrorNamingTheCharacter) {
 
 TEST(Text, WhatIsNotUtf8IsRefused) {
     EXPECT_NE(message_of("ab\xff").find("byte 3"), std::string::npos);
-    for (const char* bad : {"\x80", "\xc0\xaf", "\xe3\x81", "\xed\xa0\x80", "\xf4\x90\x80\x80"})
+    for (const char* bad : {"\x80", "\xc0\xaf", "\xe3\x81", "\xe0\x80\xaf", "\xf0\x80\x80\xaf",
+                            "\xed\xa0\x80", "\xf4\x90\x80\x80"})
         EXPECT_NE(message_of(bad).find("not UTF-8"), std::string::npos);
 }
 
@@ -64,6 +65,9 @@ TEST(Text, LinesBreakAtSpacesAndBetweenJapaneseCharacters) {
     const auto japanese = type.wrapped("片持ち平板の曲げ破壊", style, type.width("片持ち平", style) + 1, 5);
     ASSERT_EQ(japanese.size(), 3u);
     EXPECT_EQ(japanese[0] + japanese[1] + japanese[2], "片持ち平板の曲げ破壊");
+    const auto mixed = type.wrapped("plate片持", style, type.width("plate", style) + 1, 2);
+    ASSERT_EQ(mixed.size(), 2u);
+    EXPECT_EQ(mixed[0], "plate");
     EXPECT_TRUE(type.wrapped("Bending failure of a plate", style, width / 2, 2)[1].ends_with("…"));
 }
 

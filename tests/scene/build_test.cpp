@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "scene/everything.hpp"
+#include "scene/read.hpp"
+
+namespace hibi {
+namespace {
+
+std::string small(const std::string& from, const std::string& to) {
+    std::string text = small_scene;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+Built<2> built_from(const std::string& text) { return build(parse_scene(text, "s.toml")); }
+
+/// The small scene with another load on its right end.
+Built<2> with_load(const std::string& load) {
+    return built_from(small("where = \"x > 40 m - spacing\"\nforce = [\"0 N\", \"-80 MN\"]", load));
+}
+
+TEST(Build, CountsOfTheCantilever) {
+    const Built<2> coarse = built_from(small_scene);
+    EXPECT_EQ(coarse.model.particles.count(), 50);
+    // Pairs of a 10 x 5 lattice nearer than 2.1 spacings: offsets (1,0), (0,1), two diagonals, (2,0), (0,2).
+    EXPECT_EQ(coarse.model.bonds.count(), 9 * 5 + 10 * 4 + 2 * 9 * 4 + 8 * 5 + 10 * 3);
+    EXPECT_NEAR(std::accumulate(coarse.model.particles.mass.begin(), coarse.model.particles.mass.end(), 0.0),
+                2300.0 * 800, 1e-6);
+    EXPECT_EQ(coarse.lattice_area_error, std::vector<double>{0.0});
+    EXPECT_EQ(build(read_scene(HIBI_SOURCE_DIR "/scenes/bending_fine.toml")).model.particles.count(), 800);
+}
+
+TEST(Build, HoldsAndLoadsTakeTheirColumns) {
+    const Built<2> built = built_from(small_scene);
+    ASSERT_EQ(built.physics.holds.size(), 1u);
+    EXPECT_EQ(built.physics.holds[0].particles, (std::vector<int>{0, 10, 20, 30, 40}));
+    EXPECT_EQ(built.physics.holds[0].axes, (std::array<bool, 3>{true, true, false}));
+    const Load& load = built.physics.loads.at(0);
+    EXPECT_EQ(load.particles, (std::vector<int>{9, 19, 29, 39, 49}));
+    for (const Vec3& share : load.share) EXPECT_EQ(share, Vec3(0.2, 0, 0));  // equal shares of five
+    EXPECT_EQ(load.direction, Vec3(0, -1, 0));
+    EXPECT_EQ(load.driven, (std::array<bool, 3>{}));  // a force drives no particle
+}
+
+TEST(Build, AFaceCarriesItsWholeAreaAndNothingAcross) {
+    const Built<2> built = with_load("face = \"right\"\npressure = \"-2 MPa\"");
+    const Load& load = built.physics.loads.at(0);
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& area : load.share) sum += area;
+    EXPECT_NEAR(sum.x(), 20, 1e-9);  // 20 m high, 1 m thick
+    EXPECT_EQ(sum.y(), 0);
+    EXPECT_EQ(load.direction, Vec3(1, 0, 0));  // a negative pressure pulls
+}
+
+TEST(Build, AForceOnAFaceIsSharedByItsAreas) {
+    const Built<2> built = with_load("face = \"top\"\nforce = [\"3 N\", \"-4 N\"]");
+    const Load& load = built.physics.loads.at(0);
+    double sum = 0, smallest = 0;
+    for (const Vec3& share : load.share) {
+        sum += share.x();
+        smallest = std::min(smallest, share.x());
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_LT(smallest, 0);  // the row behind the face
+    EXPECT_NEAR((load.direction - Vec3(0.6, -0.8, 0)).norm(), 0, 1e-12);
+    const Topology topology = topology_of(parse_scene(small_scene, "s.toml"), built_from(small_scene));
+    EXPECT_EQ(topology.loads[0].particles.size(), 5u);
+}
+
+TEST(Build, PressureOnASelectionUsesWholeAreaVectors) {
+    const Built<2> built = with_load("body = \"plate\"\npressure = \"1 MPa\"");
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& area : built.physics.loads.at(0).share) sum += area;
+    EXPECT_LT(sum.norm(), 1e-9);  // a closed surface
+}
+
+TEST(Build, PrescribedMotionDrivesItsAxesOnly) {
+    const Built<2> built = with_load("where = \"x > 36 m\"\nvelocity = [\"free\", \"-2 m/s\"]");
+    const Load& load = built.physics.loads.at(0);
+    EXPECT_EQ(load.driven, (std::array<bool, 3>{false, true, false}));
+    EXPECT_EQ(load.direction, Vec3(0, -1, 0));
+}
+
+TEST(Build, DirectionOfAVaryingLoadIsThatOfItsSumAtFullRamp) {
+    // At t = 40 s the force points along (3, 4).
+    const Built<2> built =
+        with_load("where = \"x > 36 m\"\nforce = [\"3 N*t/(40 s)\", \"8 N - 4 N*t/(40 s)\"]");
+    EXPECT_NEAR((built.physics.loads.at(0).direction - Vec3(0.6, 0.8, 0)).norm(), 0, 1e-12);
+}
+
+TEST(Build, BodiesStartWithTheirVelocityAndSpin) {
+    const Built<2> built = built_from(small(
+        "spacing = \"spacing\"", "spacing = \"spacing\"\nvelocity = [\"1 m/s\", \"x/(2 s)\"]\nspin = 3"));
+    // Particle 0 at (2 m, 2 m), the centre of mass at (20 m, 10 m): v = (1, 1) + 3 x (8, -18).
+    EXPECT_NEAR((built.model.particles.velocity[0] - Vec<2>(1 + 24, 1 - 54)).norm(), 0, 1e-12);
+}
+
+TEST(Build, NotchesCutAndAreHandedOnForDrawing) {
+    const Built<2> whole = built_from(small_scene);
+    const Built<2> cut =
+        built_from(small("[[fix]]", "[[notch]]\npolyline = [[20, 20], [20, 15], [24, 11]]\n[[fix]]"));
+    EXPECT_GT(cut.model.bonds_cut, 0);
+    EXPECT_EQ(cut.model.bonds.count() + cut.model.bonds_cut, whole.model.bonds.count());
+    EXPECT_EQ(cut.notches.size(), 2u);
+}
+
+TEST(Build, ADiscIsOffInAreaAndSaysHowMuch) {
+    const Built<2> built = built_from(small("[[fix]]",
+                                            "[[body]]\nmaterial = \"concrete\"\ndisc = { centre = [100, 0], "
+                                            "radius = 10 }\nspacing = 1\n[[fix]]"));
+    const int particles = built.model.particles.count() - 50;
+    EXPECT_NEAR(built.lattice_area_error[1], particles / (3.14159265358979 * 100) - 1, 1e-12);
+    EXPECT_LT(std::abs(built.lattice_area_error[1]), 0.05);
+}
+
+TEST(TopologyOf, HoldsWhatIsDrawn) {
+    const Scene scene = parse_scene(everything, "s.toml");
+    const Built<2> built = build(scene);
+    const Topology topology = topology_of(scene, built);
+    EXPECT_EQ(topology.body_names.size(), 6u);
+    EXPECT_EQ(topology.reference_position.size(), topology.body.size());
+    EXPECT_EQ(topology.first, built.model.bonds.first);
+    EXPECT_EQ(topology.supports.size(), 2u);
+    ASSERT_EQ(topology.loads.size(), 6u);
+    EXPECT_EQ(topology.loads[1].kind, "pressure");
+    EXPECT_TRUE(topology.loads[1].primary);
+    EXPECT_EQ(topology.loads[1].particles.size(), 20u);  // the outermost row of a 10 m side, spacing 0.5 m
+    EXPECT_EQ(topology.loads[2].particles.size(), 10u);  // and of a 5 m side
+    EXPECT_EQ(topology.notches.size(), 3u);
+    EXPECT_EQ(topology.thickness, 0.2);
+}
+
+}  // namespace
+}  // namespace hibi
