@@ -35,11 +35,11 @@ constexpr std::string_view cividis =
 // 2020) of the upper half, hue going from inferno's purple by blue to mint, so that equal magnitudes look
 // equally strong.
 constexpr std::string_view cold =
-    "280c53 2c1462 2f1c72 302482 2f2d91 2c35a0 2a40a6 284aac 2755b3 2660ba 2569bf 2774c5 207fc8 "
-    "198bcc 1797cf 1aa1d0 22add3 2db8d5 3bc3d7 4acdd9 5bd7de 75e1e2 8ceae6 a1f3eb b7fcf1 e1fff8 ";
+    "420a68 471770 47237b 432e8a 3d379a 3640aa 334bb1 3155b8 305fbe 2f69c3 2f72c9 307ccd 2b87d1 2592d4 "
+    "239dd5 27a8d7 2cb2d9 35bdda 41c7db 4fd1dd 5fdbe2 77e3e4 8eece8 a3f5ed b8fdf2 e3fff8 ";
 
 /// Where inferno begins: darker colours would drown in a dark background.
-constexpr double inferno_begin = 0.14;
+constexpr double inferno_begin = 0.2;
 
 int digit(char c) { return c <= '9' ? c - '0' : c - 'a' + 10; }
 

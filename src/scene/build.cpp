@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/time_step.hpp"
 #include "physics/weights.hpp"
+#include "scene/build_loads.hpp"
+#include "scene/build_supports.hpp"
 
 namespace hibi {
 
@@ -121,200 +121,6 @@ void set_velocities(const Scene& scene, Model<2>& model, Problems& problems) {
     }
 }
 
-std::vector<int> selected(const Model<2>& model, const Selection& selection) {
-    std::vector<int> particles;
-    for (int i = 0; i < model.particles.count(); ++i)
-        if (selection(to_3d<2>(model.particles.reference_position[i]), model.particles.body[i]))
-            particles.push_back(i);
-    return particles;
-}
-
-/// The particles of a selection; an empty one is reported.
-std::vector<int> select(const Model<2>& model, const Selection& selection, const std::string& path,
-                        const std::string& block, Problems& problems) {
-    std::vector<int> particles = selected(model, selection);
-    if (!particles.empty()) return particles;
-    Vec<2> low = Vec<2>::Constant(INFINITY), high = -low;
-    for (int i = 0; i < model.particles.count(); ++i) {
-        if (selection.body >= 0 && selection.body != model.particles.body[i]) continue;
-        low = low.cwiseMin(model.particles.reference_position[i]);
-        high = high.cwiseMax(model.particles.reference_position[i]);
-    }
-    problems.add(path + "/where", fmt::format("{} where: selects no particle", block),
-                 fmt::format("particle centres lie within x = {:g} ... {:g} m, y = {:g} ... {:g} m", low.x(),
-                             high.x(), low.y(), high.y()));
-    return particles;
-}
-
-Vec3 outward_of(const std::string& face) {
-    return face == "left"     ? Vec3(-1, 0, 0)
-           : face == "right"  ? Vec3(1, 0, 0)
-           : face == "bottom" ? Vec3(0, -1, 0)
-                              : Vec3(0, 1, 0);
-}
-
-/// The particles that carry a face of a box, and, per particle, the part of its area vector that points out
-/// of that face (m^2). A particle that the face takes neighbours from has other weights, and so has every
-/// particle bonded to it: the vectors differ from zero up to two influence radii deep, and only all together
-/// they are the face.
-void select_face(const Model<2>& model, const std::vector<Vec<2>>& areas, const Body<2>& body,
-                 const Vec<2>& outward, Load& load, std::vector<double>& share) {
-    const auto& box = std::get<Box<2>>(body.shape.form);
-    const Vec<2> size = box.high - box.low;
-    const double depth = std::min(2 * model.influence * body.spacing, std::abs(size.dot(outward)) / 2);
-    const Vec<2> corner = outward.sum() > 0 ? box.high : box.low;
-    for (int i = body.begin; i < body.end; ++i) {
-        if ((corner - model.particles.reference_position[i]).dot(outward) >= depth) continue;
-        load.particles.push_back(i);
-        share.push_back(areas[i].dot(outward));
-    }
-}
-
-/// Total of a load at full ramp: what it is reported along. Zero where it has none.
-Vec3 resultant(const Model<2>& model, const Load& load, double time) {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < load.particles.size(); ++k) {
-        const Vec3 X = to_3d<2>(model.particles.reference_position[load.particles[k]]);
-        if (load.kind == Load::Kind::pressure)
-            sum -= load.value[0](X, time) * load.share[k];
-        else
-            for (int axis = 0; axis < 2; ++axis)
-                sum[axis] +=
-                    (load.kind == Load::Kind::force ? load.share[k].x() : 1.0) * load.value[axis](X, time);
-    }
-    return sum;
-}
-
-/// Reports a value that is not finite somewhere on its particles, at one of a few times.
-void check_finite(const Model<2>& model, const Load& load, double max_time, const std::string& path,
-                  Problems& problems) {
-    static constexpr const char* keys[] = {"force", "pressure", "displacement", "velocity"};
-    const std::string key = keys[static_cast<int>(load.kind)];
-    for (const double time : {0.0, load.ramp.duration / 2, load.ramp.duration, max_time / 2, max_time})
-        for (const int i : load.particles) {
-            const Vec3 X = to_3d<2>(model.particles.reference_position[i]);
-            for (int axis = 0; axis < 2; ++axis)
-                if (!std::isfinite(load.value[axis](X, time))) {
-                    problems.add(path + "/" + key,
-                                 fmt::format("[[load]] {} is not finite at ({:g} m, {:g} m), t = {:g} s", key,
-                                             X.x(), X.y(), time));
-                    return;
-                }
-        }
-}
-
-Load make_load(const Scene& scene, const Model<2>& model, const LoadSpec& spec, const std::string& path,
-               const std::vector<Vec<2>>& areas, Problems& problems) {
-    Load load;
-    load.name = spec.name;
-    load.kind = spec.kind;
-    load.value = spec.value;
-    load.driven = spec.driven;
-    load.ramp.duration = spec.ramp;
-    load.primary = spec.primary;
-    load.no_fail = spec.no_fail;
-    if (spec.face) {
-        const Vec3 outward = outward_of(*spec.face);
-        std::vector<double> area;
-        select_face(model, areas, model.bodies[spec.face_body], outward.head<2>(), load, area);
-        const double sum = std::accumulate(area.begin(), area.end(), 0.0);
-        for (const double A : area)
-            load.share.push_back(load.kind == Load::Kind::pressure ? Vec3(A * outward) : Vec3(A / sum, 0, 0));
-        load.direction = load.kind == Load::Kind::pressure ? Vec3(Vec3::Zero() - outward) : outward;
-    } else {
-        load.particles = select(model, *spec.where, path, "[[load]]", problems);
-        if (load.kind == Load::Kind::pressure)
-            for (const int i : load.particles) load.share.push_back(to_3d<2>(areas[i]));
-        else
-            load.share.assign(load.particles.size(),
-                              Vec3(1.0 / static_cast<double>(load.particles.size()), 0, 0));
-    }
-    check_finite(model, load, scene.run.max_time, path, problems);
-    const Vec3 total = resultant(model, load, load.ramp.duration);
-    if (total.allFinite() && total.norm() > 0)
-        load.direction = total.normalized();
-    else if (!spec.face)
-        load.direction = !load.driven[0] && load.driven[1] ? Vec3::UnitY() : Vec3::UnitX();
-    return load;
-}
-
-/// A component of a particle that two supports or loads both prescribe.
-void check_conflicts(const Built<2>& built, Problems& problems) {
-    const int n = built.model.particles.count();
-    std::array<std::vector<const std::string*>, 2> owner{std::vector<const std::string*>(n),
-                                                         std::vector<const std::string*>(n)};
-    for (const Hold& hold : built.physics.holds)
-        for (const int i : hold.particles)
-            for (int axis = 0; axis < 2; ++axis)
-                if (hold.axes[axis]) owner[axis][i] = &hold.name;
-    for (std::size_t l = 0; l < built.physics.loads.size(); ++l) {
-        const Load& load = built.physics.loads[l];
-        for (int axis = 0; axis < 2; ++axis)
-            for (const int i : load.particles) {
-                if (!load.driven[axis]) continue;
-                if (owner[axis][i]) {
-                    const Vec<2>& X = built.model.particles.reference_position[i];
-                    problems.add(fmt::format("load/{}", l),
-                                 fmt::format("[[load]]: \"{}\" and \"{}\" both prescribe the {} of the "
-                                             "particle at ({:g} m, {:g} m)",
-                                             load.name, *owner[axis][i], axis == 0 ? 'x' : 'y', X.x(), X.y()),
-                                 "select apart, or make a direction \"free\"");
-                    return;
-                }
-                owner[axis][i] = &load.name;
-            }
-    }
-}
-
-/// A particle of a part, hanging together by bonds, that is not held against all three motions of a rigid
-/// body.
-std::optional<int> free_particle(const Built<2>& built) {
-    const Particles<2>& particles = built.model.particles;
-    const Bonds& bonds = built.model.bonds;
-    const int n = particles.count();
-    std::vector<int> part(n);
-    std::iota(part.begin(), part.end(), 0);
-    const auto root = [&](int i) {
-        while (part[i] != i) i = part[i] = part[part[i]];
-        return i;
-    };
-    for (int b = 0; b < bonds.count(); ++b) part[root(bonds.first[b])] = root(bonds.second[b]);
-
-    std::vector<std::array<bool, 3>> held(n);
-    const auto hold = [&](const std::vector<int>& list, const std::array<bool, 3>& axes) {
-        for (const int i : list)
-            for (int axis = 0; axis < 2; ++axis) held[i][axis] |= axes[axis];
-    };
-    for (const Hold& h : built.physics.holds) hold(h.particles, h.axes);
-    for (const Load& l : built.physics.loads) hold(l.particles, l.driven);
-
-    std::vector<Vec<2>> centre(n, Vec<2>::Zero());
-    std::vector<int> count(n, 0);
-    for (int i = 0; i < n; ++i) {
-        centre[root(i)] += particles.reference_position[i];
-        ++count[root(i)];
-    }
-    // Each held component forbids one combination of the two translations and the rotation; a rotation is
-    // measured by what it moves at one spacing from the centre of the part.
-    std::vector<Mat<3>> forbidden(n, Mat<3>::Zero());
-    for (int i = 0; i < n; ++i) {
-        const int r = root(i);
-        const Vec<2> arm = (particles.reference_position[i] - centre[r] / count[r]) / particles.spacing[i];
-        for (int axis = 0; axis < 2; ++axis) {
-            if (!held[i][axis]) continue;
-            const Vec3 row = axis == 0 ? Vec3(1, 0, -arm.y()) : Vec3(0, 1, arm.x());
-            forbidden[r] += row * row.transpose();
-        }
-    }
-    for (int i = 0; i < n; ++i) {
-        if (root(i) != i) continue;
-        const Vec3 eigen =
-            Eigen::SelfAdjointEigenSolver<Mat<3>>(forbidden[i], Eigen::EigenvaluesOnly).eigenvalues();
-        if (!(eigen.minCoeff() > 1e-9 * std::max(1.0, eigen.maxCoeff()))) return i;
-    }
-    return {};
-}
-
 }  // namespace
 
 Built<2> assemble(const Scene& scene, Problems& problems) {
@@ -419,13 +225,12 @@ Topology topology_of(const Scene& scene, const Built<2>& built) {
         const Load& load = built.physics.loads[k];
         LoadMark mark{load.name, kinds[static_cast<int>(load.kind)], load.particles, load.direction,
                       load.primary};
-        if (scene.loads[k]
-                .face) {  // drawn on the outermost row alone, though rows behind it carry some of it
-            const Vec3 outward = outward_of(*scene.loads[k].face);
-            mark.particles.clear();
-            for (std::size_t i = 0; i < load.particles.size(); ++i)
-                if ((load.kind == Load::Kind::force ? load.share[i].x() : load.share[i].dot(outward)) > 0)
-                    mark.particles.push_back(load.particles[i]);
+        // Drawn on the outermost row alone, though rows behind it carry some of a face load.
+        if (const auto& face = scene.loads[k].face) {
+            const Body<2>& body = built.model.bodies[scene.loads[k].face_body];
+            std::erase_if(mark.particles, [&](int i) {
+                return depth_behind(body, *face, particles.reference_position[i]) > body.spacing;
+            });
         }
         topology.loads.push_back(std::move(mark));
     }

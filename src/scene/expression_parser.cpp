@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scene/expression.hpp"
+#include "scene/expression_names.hpp"
 #include "scene/suggest.hpp"
 
 namespace hibi {
@@ -15,14 +16,6 @@ namespace {
 
 constexpr int deepest_nesting = 64;  // of parentheses, signs and powers
 constexpr int longest_text = 10000;  // bytes
-
-std::optional<Op> function_named(const std::string& name) {
-    for (int op = static_cast<int>(Op::first_function); op < static_cast<int>(Op::count); ++op)
-        if (name == operators[op].symbol) return static_cast<Op>(op);
-    return {};
-}
-
-bool is_word(const std::string& name) { return name == "and" || name == "or" || name == "not"; }
 
 /// Recursive descent; each function appends the program of what it read and returns its type.
 class Parser {
@@ -74,26 +67,15 @@ class Parser {
         advance(static_cast<int>(length));
         return true;
     }
-    static bool starts_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-    /// The name that begins at a byte; empty if none does.
-    std::string name_at(int begin) const {
-        int end = begin;
-        const int size = static_cast<int>(text_.size());
-        if (begin < size && starts_name(text_[begin]))
-            while (end < size &&
-                   (starts_name(text_[end]) || std::isdigit(static_cast<unsigned char>(text_[end]))))
-                ++end;
-        return text_.substr(begin, end - begin);
-    }
     bool take_word(const char* word) {
-        if (name_at(at_) != word) return false;
+        if (name_at(text_, at_) != word) return false;
         advance(static_cast<int>(std::char_traits<char>::length(word)));
         return true;
     }
 
     [[noreturn]] void unexpected() {
         if (at_end()) throw ExpressionError(std::max(0, last_end_ - 1), 1, "the expression ends too early");
-        int bytes = std::max(1, static_cast<int>(name_at(at_).size()));
+        int bytes = std::max(1, static_cast<int>(name_at(text_, at_).size()));
         while ((peek(bytes) & 0xC0) == 0x80) ++bytes;  // a whole character of UTF-8
         const std::string found = text_.substr(at_, bytes);
         std::string hint;
@@ -297,7 +279,7 @@ class Parser {
             inner.end = last_end_;
             return inner;
         }
-        const std::string name = name_at(at_);
+        const std::string name = name_at(text_, at_);
         if (name.empty() || is_word(name)) unexpected();
         advance(static_cast<int>(name.size()));
         if (const auto op = function_named(name)) return call(*op, begin);
@@ -316,8 +298,7 @@ class Parser {
                 fmt::format("\"{}\" is too large or too small", text_.substr(begin, digits)));
         advance(digits);
         Quantity unit{1, {}};
-        while (unit_follows(unit)) {
-        }
+        while (read_unit_factor(text_, names_, at_, unit)) skip_spaces();
         value *= tidy_factor(unit.value);
         ++numbers;
         if (last_end_ - begin > digits) ++names_used;  // has a unit
@@ -325,70 +306,6 @@ class Parser {
         if (!std::isfinite(value)) fail(type, fmt::format("\"{}\" is not a finite number", text_of(type)));
         program.push_back({Op::constant, value, unit.dimension});
         return type;
-    }
-
-    bool is_variable(const std::string& name) const {
-        return (names_.space && (name == "x" || name == "y" || name == "z")) || (names_.time && name == "t");
-    }
-
-    /// Reads one more factor of the unit behind a number. After * a name of the scene goes before a unit;
-    /// after / the two could be meant alike, and asking is better than guessing.
-    bool unit_follows(Quantity& unit) {
-        int begin = at_;
-        const char sign = peek() == '*' || peek() == '/' ? peek() : ' ';
-        if (sign != ' ') do
-                ++begin;
-            while (begin < static_cast<int>(text_.size()) && text_[begin] == ' ');
-        std::string name = name_at(begin);
-        int bytes = static_cast<int>(name.size());
-        if (text_.compare(begin, 2, "µ") == 0 || text_.compare(begin, 2, "μ") == 0) {
-            name = name_at(begin + 2).insert(0, 1, 'u');
-            bytes = static_cast<int>(name.size()) + 1;
-        }
-        if (name.empty() || is_word(name)) return false;
-        const auto atom = unit_atom(name);
-        const bool param = names_.params.count(name) > 0;
-        if (sign != ' ') {
-            int after = begin + bytes;
-            while (after < static_cast<int>(text_.size()) && text_[after] == ' ') ++after;
-            if (function_named(name) && after < static_cast<int>(text_.size()) && text_[after] == '(')
-                return false;
-            if (sign == '*' && (param || is_variable(name) || name == "pi")) return false;
-            if (is_variable(name) && unit.dimension.is_plain()) return false;
-            if (atom && (param || is_variable(name)))
-                throw ExpressionError(begin, bytes,
-                                      fmt::format("\"{}\" is a unit and a name of this scene alike", name),
-                                      fmt::format("write /({0}) for the name, or {0}^-1 for the unit", name));
-            if (param || !atom || name == "pi") return false;
-        }
-        if (!atom) {
-            std::string hint = "capitals matter: m, mm, s, ms, kg, N, kN, MN, Pa, MPa, GPa, J";
-            if (param || is_variable(name) || name == "pi")
-                hint = fmt::format("to multiply, write * {}", name);
-            else if (name.find_first_of("0123456789") != std::string::npos)
-                hint = "write powers with ^: m^3";
-            throw ExpressionError(begin, bytes, fmt::format("unknown unit \"{}\"", name), hint);
-        }
-        at_ = begin;
-        advance(bytes);
-        double exponent = 1;
-        if (peek() == '^') {
-            const int caret = at_;
-            advance(1);
-            const bool minus = peek() == '-';
-            if (minus || peek() == '+') advance(1);
-            const char* first = text_.data() + at_;
-            const auto [end, error] =
-                std::from_chars(first, text_.data() + text_.size(), exponent, std::chars_format::fixed);
-            if (error != std::errc{} || !(std::abs(exponent) <= 100))
-                throw ExpressionError(caret, 1, "a unit's power must be a number", "for example m^0.5");
-            advance(static_cast<int>(end - first));
-            if (minus) exponent = -exponent;
-        }
-        if (sign == '/') exponent = -exponent;
-        unit.value *= std::pow(atom->value, exponent);
-        unit.dimension = unit.dimension * pow(atom->dimension, exponent);
-        return true;
     }
 
     Type variable(const std::string& name, int begin) {
@@ -403,7 +320,7 @@ class Parser {
             return type;
         }
         const bool is_place = name == "x" || name == "y" || name == "z";
-        if (is_variable(name)) {
+        if (is_variable(names_, name)) {
             type.dimension.power[name == "t" ? 2 : 0] = 1;
             program.push_back({name == "t"   ? Op::t
                                : name == "x" ? Op::x
@@ -417,6 +334,9 @@ class Parser {
         if (name == "t") fail(type, "\"t\" cannot stand here: this value is the same at all times");
         std::vector<std::string> known;
         for (const auto& [param_name, quantity] : names_.params) known.push_back(param_name);
+        const std::string letters = name.substr(0, name.find_first_of("0123456789"));
+        if (letters != name && unit_atom(letters))
+            fail(type, fmt::format("unknown name \"{}\"", name), "write powers with ^: m^3");
         std::string hint = unit_atom(name) ? fmt::format("a unit needs a number before it: 1 {}", name)
                                            : "names come from [params]";
         if (const auto near = nearest(name, known))
@@ -476,11 +396,6 @@ class Parser {
 };
 
 }  // namespace
-
-bool is_reserved_name(const std::string& name) {
-    return function_named(name) || is_word(name) || name == "pi" || name == "x" || name == "y" ||
-           name == "z" || name == "t";
-}
 
 Parsed parse_expression(const std::string& text, const Names& names) {
     Parser parser(text, names);

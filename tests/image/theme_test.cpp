@@ -41,12 +41,12 @@ TEST(ColourMap, MatchesThePublishedTablesWithinTwo) {
 }
 
 TEST(ColourMap, InfernoBeginsWhereItStandsOutFromTheDarkTheme) {
-    // Published entries 36 (just above 0.14 * 255 = 35.7), 201 and 255 of inferno (matplotlib 3.6).
+    // Published entries 51 = 0.2 * 255, 205 and 255 of inferno (matplotlib 3.6).
     const auto near = [](int index, std::array<int, 3> rgb) {
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(colour_map("inferno")[index][c], rgb[c], 2) << index;
     };
-    near(0, {40, 11, 83});
-    near(192, {252, 159, 7});  // (201 - 35.7) / (255 - 35.7) * 255 = 192.2
+    near(0, {66, 10, 104});
+    near(192, {252, 165, 10});  // (205 - 51) / (255 - 51) * 255 = 192.5
     near(255, {252, 255, 164});
     const Rgb& background = theme("dark").background;
     EXPECT_GT(colour_map("inferno")[0][2] - 255 * background[2], 50);
