@@ -33,10 +33,11 @@ double mark_quantity(const Topology& topology, int load, const HistoryRow& row) 
     return load < static_cast<int>(values.size()) ? values[load] : 0;
 }
 
-/// A signed field without a range of the user's is shown by the map made for it.
+/// A signed field is shown by the map made for it, unless a range of the user's may have its zero off the middle.
 View shown_view(const Scene& scene) {
     View view = scene.view;
-    if (!view.range && field_label(view.field).is_signed) view.map = "diverging";
+    if (view.map == "auto")
+        view.map = !view.range && field_label(view.field).is_signed ? "diverging" : "inferno";
     return view;
 }
 

@@ -28,7 +28,7 @@ BlockReader::BlockReader(ReadContext& context, const Value& table, const KeyBloc
         const Key* key = block.find(entry.key);
         if (!key) {
             std::string message = fmt::format("unknown key \"{}\" in {}", entry.key, title_);
-            const auto near = nearest(entry.key, block.key_names());
+            const auto near = context_.problems.many() ? std::nullopt : nearest(entry.key, block.key_names());
             if (near) message += fmt::format("; did you mean \"{}\"?", *near);
             context_.problems.add(path_ + "/" + entry.key, entry.place, message,
                                   near ? "" : "known: " + list_of(block.key_names()));

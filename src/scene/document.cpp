@@ -105,6 +105,10 @@ class Converter {
  private:
     std::vector<SceneError>& errors_;
     std::vector<std::string_view> lines_;
+    struct {
+        int line = 0, column = 1;
+        std::size_t byte = 0;
+    } counted_;  ///< where the last column was found
 
     void check_text(const std::string& text, const Place& place) {
         for (const char c : text)
@@ -118,13 +122,17 @@ class Converter {
 
     /// Whether the bytes behind the opening quote are those of the text, so that places inside it can be
     /// shown.
-    bool stands_as_written(const Value& value) const {
+    bool stands_as_written(const Value& value) {
         if (value.place.line < 1 || value.place.line > static_cast<int>(lines_.size())) return false;
         const std::string_view line = lines_[value.place.line - 1];
-        std::size_t at = 0;
-        for (int column = 1; column < value.place.column && at < line.size(); ++column) do
-                ++at;
-            while (at < line.size() && (line[at] & 0xC0) == 0x80);
+        // Values come in the order of the file, mostly: going on from the last one keeps long lines cheap.
+        if (value.place.line != counted_.line || value.place.column < counted_.column)
+            counted_ = {value.place.line, 1, 0};
+        std::size_t& at = counted_.byte;
+        for (; counted_.column < value.place.column && at < line.size(); ++counted_.column) {
+            ++at;
+            while (at < line.size() && (line[at] & 0xC0) == 0x80) ++at;
+        }
         return at + 1 <= line.size() && line.substr(at + 1, value.text.size()) == value.text &&
                at + 1 + value.text.size() < line.size() && line[at + 1 + value.text.size()] == line[at];
     }

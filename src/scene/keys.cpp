@@ -8,6 +8,16 @@
 
 namespace hibi {
 
+namespace {
+
+std::vector<std::string> map_choices() {
+    std::vector<std::string> names = colour_map_names();
+    names.insert(names.begin(), "auto");
+    return names;
+}
+
+}  // namespace
+
 const Key* KeyBlock::find(const std::string& key) const {
     for (const Key& k : keys)
         if (k.name == key) return &k;
@@ -185,7 +195,8 @@ const std::vector<KeyBlock>& scene_blocks() {
         }},
         {"colour", "colour", Form::inner, "What colours the particles.", {
             {"field", choice, "", "bond_strain", "", R"("von_mises")", scalar_field_names()},
-            {"map", choice, "", "inferno", "", R"("viridis")", colour_map_names()},
+            {"map", choice, "", "auto", "auto: diverging for a signed field in the range of the run, else inferno",
+             R"("viridis")", map_choices()},
             {"range", range, "", "run",
              R"("run": what occurs during the run; or [low, high] in the unit of the field)",
              R"(["0 MPa", "20 MPa"])"},

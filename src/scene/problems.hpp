@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,20 +19,21 @@ class Problems {
     void add(const std::string& path, const std::string& message, const std::string& hint = {});
     void add(const std::string& path, const Place& place, const std::string& message,
              const std::string& hint);
-
     /// The value is wrong because of a mistake that is told elsewhere.
-    void silence(const std::string& path) { paths_.push_back(path); }
+    void silence(const std::string& path) { paths_.insert(path); }
 
     /// Whether the value, something in it, or something it is in, is known to be wrong.
     bool concerns(const std::string& path) const;
     /// Whether the value may be judged further.
     bool fine(const std::string& path) const { return !concerns(path); }
+    /// So many mistakes that nobody reads on: what is costly to find out may be left out.
+    bool many() const { return errors_.size() > 100; }
 
     const std::vector<SceneError>& errors() const { return errors_; }
 
  private:
     std::map<std::string, Place> places_;
-    std::vector<std::string> paths_;
+    std::set<std::string> paths_;
     std::vector<SceneError> errors_;
 };
 

@@ -131,7 +131,7 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
                 entry.value.kind == Value::Kind::array || entry.value.kind == Value::Kind::table;
             std::string message = block ? fmt::format("unknown block {}", shown)
                                         : fmt::format("unknown key \"{}\" at the top of the file", entry.key);
-            const auto near = nearest(entry.key, known);
+            const auto near = context.problems.many() ? std::nullopt : nearest(entry.key, known);
             if (near) message += fmt::format("; did you mean \"{}\"?", *near);
             context.problems.add(entry.key, entry.place, message, near ? "" : "known: " + list_of(known));
             continue;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "scene/everything.hpp"
+#include "scene/keys.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {
@@ -40,6 +41,25 @@ TEST(WriteScene, EveryFileInScenesReadsAndWritesBackTheSame) {
 TEST(WriteScene, ASceneThatUsesEverythingReadsAndWritesBackTheSame) {
     const Scene scene = parse_scene(everything, "s.toml");
     expect_the_same_scene(scene, parse_scene(write_scene(scene), "again"));
+}
+
+TEST(WriteScene, LosesNoKeyThatIsSet) {
+    const std::string written = write_scene(parse_scene(everything, "s.toml"));
+    const auto holds = [](const std::string& text, const std::string& key) {
+        for (std::size_t at = 0; (at = text.find(key + " = ", at)) != std::string::npos; ++at)
+            if (at == 0 || text[at - 1] == '\n' || text[at - 1] == ' ') return true;
+        return false;
+    };
+    for (const KeyBlock& block : scene_blocks()) {
+        for (const Key& key : block.keys) {
+            if (!holds(everything, key.name) || key.name == "line") continue;  // a polyline of two points
+            EXPECT_TRUE(holds(written, key.name)) << block.title << " " << key.name;
+        }
+    }
+    // As often as it is set: two moments of loads, one of damping, one of the run.
+    std::size_t moments = 0;
+    for (std::size_t at = 0; (at = written.find("\nuntil = ", at)) != std::string::npos; ++at) ++moments;
+    EXPECT_EQ(moments, 4u);
 }
 
 TEST(WriteScene, AnOverrideIsWrittenAsItsEffect) {

@@ -290,6 +290,16 @@ TEST_F(WrongFile, WithADottedKeyWithoutEnd) {
     EXPECT_EQ(answer_to("[" + key + "]"), "s.toml:1:35: error: a dotted key of more than 16 parts");
 }
 
+TEST_F(WrongFile, WithAHundredThousandMistakes) {
+    std::string keys, points = "[[body]]\npolygon = [";
+    for (int i = 0; i < 100000; ++i) {
+        keys += std::to_string(i) + " = 1\n";
+        points += "[\"1 q\", 1],";
+    }
+    EXPECT_EQ(answer_to(keys), "s.toml:1:1: error: unknown key \"0\" at the top of the file");
+    EXPECT_EQ(answer_to(points + "]"), "s.toml:1:1: error: missing key \"material\" in [[body]]");
+}
+
 TEST_F(WrongFile, ThatIsTooLarge) {
     EXPECT_EQ(answer_to(std::string(20'000'000, '#')),
               "s.toml: error: a scene file of more than 16 MB; is this the right file?");
