@@ -49,12 +49,12 @@ install_missing() {
 
 # Configures build/release where that has not been done, then builds the given target.
 build() {
-    local tree="$root/build/release" options=()
-    if [ "${CI:-}" = true ]; then options=(-DHIBI_WERROR=ON); fi
+    local tree="$root/build/release" strict=OFF
+    if [ "${CI:-}" = true ]; then strict=ON; fi
     if [ ! -f "$tree/build.ninja" ] || [ "$root/CMakePresets.json" -nt "$tree/CMakeCache.txt" ] ||
-        { [ "${CI:-}" = true ] && ! grep -qx 'HIBI_WERROR:BOOL=ON' "$tree/CMakeCache.txt"; }; then
+        ! grep -qx "HIBI_WERROR:BOOL=$strict" "$tree/CMakeCache.txt"; then
         # CMake looks for presets in the current folder.
-        (cd "$root" && cmake --preset release "${options[@]}") >&2
+        (cd "$root" && cmake --preset release -DHIBI_WERROR=$strict) >&2
     fi
     cmake --build "$tree" --target "$1" >&2
 }

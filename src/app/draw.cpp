@@ -8,27 +8,11 @@
 #include "app/frame_writer.hpp"
 #include "app/run_drawing.hpp"
 #include "image/png.hpp"
+#include "record/leftovers.hpp"
 
 namespace hibi {
 
 namespace {
-
-void remove_old_pictures(const std::filesystem::path& folder) {
-    for (const char* name : {"frames.json", "movie.mp4", "movie.mp4.tmp", "poster.png", "poster.png.tmp"})
-        std::filesystem::remove(folder / name);
-    if (!std::filesystem::is_directory(folder / "frames")) return;
-    std::vector<std::filesystem::path> old;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
-        const std::string name = entry.path().filename().string();
-        const std::string number = name.substr(0, name.find('.'));
-        const std::string rest = name.substr(number.size());
-        if (!number.empty() && number.find_first_not_of("0123456789") == std::string::npos &&
-            (rest == ".png" || rest == ".png.tmp"))
-            old.push_back(entry.path());
-    }
-    for (const std::filesystem::path& file : old) std::filesystem::remove(file);
-    if (std::filesystem::is_empty(folder / "frames")) std::filesystem::remove(folder / "frames");
-}
 
 PngText png_text(const RunReader& run, double time) {
     PngText text = {{"Title", run.summary().title},
@@ -46,7 +30,7 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
     const RunReader run(folder);
     RunDrawing drawing(scene, run, options.renderer);
     const FilmPlan& plan = drawing.plan();
-    remove_old_pictures(folder);
+    remove_pictures(folder);
 
     const int frames = options.movie || options.frames ? static_cast<int>(plan.time.size()) : 0;
     if (options.frames) std::filesystem::create_directories(folder / "frames");
@@ -69,6 +53,7 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
         info.file = fmt::format("frames/{:06}.png", k);
         info.time = plan.time[k];
         if (plan.event[k]) info.event = to_string(*plan.event[k]);
+        for (const EventName name : plan.events[k]) info.events.push_back(to_string(name));
         writer.add(std::move(image), std::move(info), png_text(run, plan.time[k]));
         if (options.progress) options.progress(k + 1, frames);
     }

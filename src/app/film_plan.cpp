@@ -62,17 +62,23 @@ int poster_frame(const FilmPlan& plan, const Events& events, std::vector<double>
 
 FilmPlan plan_film(const MovieSpec& movie, const Events& events, const std::vector<double>& broken_at,
                    double begin, double end) {
-    FilmPlan plan{.map = time_map(movie, events, begin, end), .time = {}, .event = {}, .poster = 0};
+    FilmPlan plan{
+        .map = time_map(movie, events, begin, end), .time = {}, .event = {}, .events = {}, .poster = 0};
     const int frames = movie.frames();
     plan.event.resize(frames);
     plan.time.resize(frames);
     for (int k = 0; k < frames; ++k) plan.time[k] = plan.map.simulated(plan.film_time(k));
     plan.time.back() = end;  // to the last bit, so that the last frame is the last state
-    plan.event.front() = EventName::start;
-    plan.event.back() = EventName::end;
+    plan.events.resize(frames);
+    const auto mark = [&](int frame, EventName name) {
+        plan.event[frame] = name;
+        plan.events[frame].push_back(name);
+    };
+    mark(0, EventName::start);
+    mark(frames - 1, EventName::end);
     for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
         if (const std::optional<double> time = events.time_of({name, 0}))
-            if (const std::optional<int> frame = first_frame(plan.time, *time)) plan.event[*frame] = name;
+            if (const std::optional<int> frame = first_frame(plan.time, *time)) mark(*frame, name);
     plan.poster = poster_frame(plan, events, broken_at);
     return plan;
 }

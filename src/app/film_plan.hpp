@@ -14,7 +14,8 @@ namespace hibi {
 struct FilmPlan {
     TimeMap map;
     std::vector<double> time;                     ///< per frame: simulated (s)
-    std::vector<std::optional<EventName>> event;  ///< on the first frame at or after it
+    std::vector<std::optional<EventName>> event;  ///< on the first frame at or after it, the most telling
+    std::vector<std::vector<EventName>> events;   ///< all of a frame
     int poster = 0;  ///< the frame that tells most: the crack long, the body not yet in two
 
     /// The event whose label stands in the picture, for a while after it happened, and how strongly (0..1).

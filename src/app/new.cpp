@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* starter =
     R"(# A scene: one experiment. `hibi run` makes a film of it, `hibi check` says what would be modelled.
-# Every block and key is explained in scenes/REFERENCE.md. Quantities carry their unit, and may be computed from
-# the names in [params]; override those with -p, for example -p spacing=0.25m
+# Every block and key is explained in scenes/REFERENCE.md. Quantities carry their unit, and may be computed
+# from the names in [params]; override those with -p, for example -p spacing=0.25m
 version = 1
 title   = "A notched beam, bent until it breaks"
 about   = "8 m x 2 m, held on the left, cut from above beside the clamp, pushed down at the right end."

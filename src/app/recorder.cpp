@@ -8,9 +8,11 @@ namespace hibi {
 
 namespace {
 
-constexpr int rows_over_max_time = 4000;
-/// A step with breaks gets a row of its own, but not more than this many per regular row.
-constexpr int break_rows = 16;
+/// Nobody knows how long a run will last: rows come every few steps, and later in proportion to the time.
+constexpr double first_row_steps = 8, rows_per_time = 2000;
+/// States come evenly and are thinned out later.
+constexpr double first_state_steps = 16;
+/// States in the ring, four per interval of the even ones.
 constexpr std::size_t ring_size = 8;
 
 }  // namespace
@@ -32,10 +34,8 @@ Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>
     : simulation_(simulation),
       watch_(watch),
       writer_(writer),
-      row_interval_(scene.run.max_time / rows_over_max_time),
       most_(2 * std::max<std::size_t>(25, scene.movie.frames() / 2)),  // even; about one state per frame
-      even_(0, scene.run.max_time / (4 * static_cast<double>(most_)), most_),
-      ring_interval_(scene.run.max_time / (16 * static_cast<double>(most_))) {
+      even_(0, first_state_steps * simulation.time_step(), most_) {
     for (const SlowSpec& slow : scene.movie.slow) {
         if (slow.around.event && *slow.around.event != EventName::start) continue;
         const double begin = slow.around.offset - slow.span / 5;
@@ -54,24 +54,22 @@ void Recorder::look() {
     const Events& events = watch_.events();
     if (!watch_.just_broken().empty()) writer_.breaks(watch_.just_broken());
 
-    const double since = time - last_row_;
-    if (since >= row_interval_ || (!watch_.just_broken().empty() && since >= row_interval_ / break_rows))
-        write_row();
+    const double interval = std::max(first_row_steps * simulation_.time_step(), time / rows_per_time);
+    if (time - last_row_ >= (watch_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
 
     if (even_.due(time)) keep(even_);
     for (Span& span : spans_)
         if (time <= span.end && span.states.due(time)) keep(span.states);
 
     if (!events.first_break) {
-        if (time - last_ring_ < ring_interval_) return;
+        if (time - last_ring_ < even_.interval() / 4) return;
         last_ring_ = time;
         if (ring_.size() == ring_size) ring_.pop_front();
         ring_.push_back(take_snapshot(simulation_));
         return;
     }
     if (!failure_) {
-        for (Snapshot& s : ring_) write_state(std::move(s));
-        ring_.clear();
+        write_ring();
         failure_.emplace(time, 2 * simulation_.time_step(), most_);
         failure_end_ = std::numeric_limits<double>::infinity();
     }
@@ -84,8 +82,17 @@ void Recorder::look() {
 }
 
 void Recorder::finish() {
+    if (simulation_.failure() || !std::isfinite(imbalance_)) {
+        write_ring();
+        return;
+    }
     if (simulation_.time() > last_row_) write_row();
     write_state(take_snapshot(simulation_));
+}
+
+void Recorder::write_ring() {
+    for (Snapshot& s : ring_) write_state(std::move(s));
+    ring_.clear();
 }
 
 void Recorder::write_row() {

@@ -19,6 +19,7 @@ class EvenStates {
         : next_(begin), interval_(interval), most_(most) {}
 
     bool due(double time) const { return time >= next_; }
+    double interval() const { return interval_; }
     /// Notes that the state of `step` was kept; returns the steps to be dropped.
     std::vector<std::int64_t> keep(double time, std::int64_t step);
 
@@ -38,13 +39,15 @@ class Recorder {
 
     /// After every step, when the watch has looked.
     void look();
-    /// The last state and row.
+    /// The last state and row, and what the ring still holds; of a state that is no longer finite only the
+    /// latter.
     void finish();
     /// Imbalance of the last row [-]; not finite where an energy is not: such a row is not recorded.
     double imbalance() const { return imbalance_; }
 
  private:
     void write_row();
+    void write_ring();
     void keep(EvenStates& series);
     void write_state(Snapshot state);
 
@@ -52,7 +55,7 @@ class Recorder {
     Watch<2>& watch_;
     RunWriter& writer_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
-    double row_interval_ = 0, last_row_ = 0, imbalance_ = 0;
+    double last_row_ = 0, imbalance_ = 0;
     std::size_t most_ = 0;
     EvenStates even_;
     std::optional<EvenStates> failure_;  ///< from first break on
@@ -62,7 +65,7 @@ class Recorder {
         EvenStates states;
     };
     std::vector<Span> spans_;  ///< slow motion at times known beforehand
-    double ring_interval_ = 0, last_ring_ = 0;
+    double last_ring_ = 0;
     std::deque<Snapshot> ring_;  ///< recent states, until first break
     bool separation_kept_ = false;
 };

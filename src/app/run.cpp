@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "base/parallel.hpp"
 #include "base/units.hpp"
 #include "measure/watch.hpp"
+#include "record/leftovers.hpp"
 #include "record/summary.hpp"
 
 namespace hibi {
@@ -35,9 +37,24 @@ class Stopwatch {
 
 std::string place(const fs::path& file) { return fs::weakly_canonical(file).string(); }
 
+/// A folder is used that holds nothing of a run's, or the run of the same scene.
 void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
-    if (options.force || !fs::exists(folder / "run.json")) return;
-    const std::string other = read_summary(folder).scene_file;
+    std::error_code none;
+    if (fs::equivalent(folder / "scene.toml", options.scene, none))
+        throw std::runtime_error(
+            fmt::format("{}: holds the scene itself, which the run would write over; choose another "
+                        "folder with -o",
+                        folder.string()));
+    if (options.force) return;
+    if (!holds_run(folder)) {
+        if (const fs::path file = one_leftover(folder); !file.empty())
+            throw std::runtime_error(
+                fmt::format("{}: is no run's, but has the name of a file that a run writes; choose "
+                            "another folder with -o, or overwrite it with --force",
+                            file.string()));
+        return;
+    }
+    const std::string other = fs::exists(folder / "run.json") ? read_summary(folder).scene_file : "unknown";
     if (other == place(options.scene)) return;
     throw std::runtime_error(
         fmt::format("{}: holds the run of another scene, {}; choose another folder with -o, or "
@@ -55,6 +72,13 @@ void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simu
     if (scene.damping && reached(scene.damping->until)) simulation.stop_damping();
     for (std::size_t l = 0; l < scene.loads.size(); ++l)
         if (reached(scene.loads[l].until)) simulation.release(static_cast<int>(l));
+}
+
+bool asks_for_separation(const Scene& scene) {
+    const auto asks = [](const std::optional<Moment>& m) { return m && m->event == EventName::separation; };
+    return asks(scene.run.until) || (scene.damping && asks(scene.damping->until)) ||
+           std::any_of(scene.loads.begin(), scene.loads.end(),
+                       [&](const LoadSpec& load) { return asks(load.until); });
 }
 
 bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
@@ -75,8 +99,8 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
         if (simulation.failure()) return simulation.failure()->message;
         pull_triggers(scene, watch.events(), simulation);
         recorder.look();
-        const bool settled = watch.worst_imbalance() > 0;  // the very first rows say nothing yet
-        if (!std::isfinite(recorder.imbalance()) || (settled && recorder.imbalance() > runaway_imbalance))
+        if (!std::isfinite(recorder.imbalance()) ||
+            (watch.settled() && recorder.imbalance() > runaway_imbalance))
             return fmt::format("step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %); {}",
                                simulation.steps(), simulation.time(), 100 * recorder.imbalance(),
                                simulation.likely_cause());
@@ -145,6 +169,11 @@ int run_command(const RunOptions& options) {
     const Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
     Watch<2> watch(simulation);
+    if (!watch.can_separate() && asks_for_separation(scene))
+        throw SceneErrors(
+            options.scene.string(), "",
+            {{.message = "separation cannot happen: before the run there is no path of bonds from a held to "
+                         "a loaded particle (what is loaded does not count as held)"}});
 
     RunSummary summary;
     summary.title = scene.title;
@@ -156,6 +185,7 @@ int run_command(const RunOptions& options) {
     summary.threads = threads();
     summary.time_step = simulation.time_step();
     summary.stopped = "it is still running, or was killed";
+    summary.trusted = false;
     RunWriter writer(folder);
     writer.scene(write_scene(scene));
     writer.topology(topology);
@@ -168,7 +198,7 @@ int run_command(const RunOptions& options) {
     const Stopwatch solving;
     Recorder recorder(scene, simulation, watch, writer);
     summary.stopped = solve(scene, simulation, watch, recorder, options.quiet);
-    if (!summary.stopped) recorder.finish();
+    recorder.finish();
     summary.seconds["solve"] = solving.seconds();
     summary.broken = simulation.broken();
     summary.steps = simulation.steps();
@@ -218,6 +248,10 @@ int render_command(const fs::path& folder, const std::optional<fs::path>& scene_
         Progress progress("drawing", "frames", quiet);
         draw.progress = [&](int done, int of) { progress.at(static_cast<double>(done) / of, done); };
         drawn = draw_run(scene, folder, draw);
+    }
+    if (!fs::exists(folder / "run.json")) {
+        fmt::print("{}\n", (folder / (options.movie ? "movie.mp4" : "frames")).string());
+        return 0;
     }
     RunSummary summary = read_summary(folder);
     summary.frames = drawn.frames;

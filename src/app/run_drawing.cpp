@@ -36,7 +36,7 @@ double mark_quantity(const Topology& topology, int load, const HistoryRow& row) 
 /// A signed field is shown by the map made for it, unless a range of the user's may have its zero off the middle.
 View shown_view(const Scene& scene) {
     View view = scene.view;
-    if (view.map == "auto")
+    if (!view.map)
         view.map = !view.range && field_label(view.field).is_signed ? "diverging" : "inferno";
     return view;
 }
@@ -132,7 +132,7 @@ OverlayContent RunDrawing::content(const Scene& scene) const {
     OverlayContent c;
     c.title = scene.title;
     c.subtitle = describe(scene, run_.topology());
-    c.colour_bar = {field.title, field.unit, range_[0], range_[1], view_.map};
+    c.colour_bar = {field.title, field.unit, range_[0], range_[1], *view_.map};
     c.has_breaks = std::ranges::any_of(scene.materials, &Material::can_break);
     c.time_end = run_.states().back().time;
     c.time_resolution = plan_.smallest_step();

@@ -10,7 +10,8 @@ namespace hibi {
 struct View {
     int width = 1920, height = 1080;    ///< pixels; even
     std::string field = "bond_strain";  ///< what colours the particles: a name of scalar_field
-    std::string map = "auto";          ///< a name of colour_map_names(); auto: diverging for signed fields
+    /// A name of colour_map_names(); absent: diverging for a signed field in the range of the run, else inferno.
+    std::optional<std::string> map{};
     std::optional<std::array<double, 2>>
         range{};                 ///< in the field's SI unit; absent: fixed over the whole run
     std::string theme = "dark";  ///< dark, light, print

@@ -2,21 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "base/parallel.hpp"
 
 namespace hibi {
 
-Connection::Connection(const std::vector<int>& from, const std::vector<int>& to, int particles)
-    : from_(particles, 0), to_(particles, 0), asked_(!from.empty() && !to.empty()) {
+Connection::Connection(const std::vector<int>& from, const std::vector<int>& to, const Bonds& bonds)
+    : from_(bonds.start.size() - 1, 0), to_(from_) {
     for (const int i : from) from_[i] = 1;
     for (const int i : to) to_[i] = 1;
+    existed_ = search(bonds);
+    lost_ = !existed_;
 }
 
 bool Connection::holds(const Bonds& bonds, std::span<const int> just_broken) {
     if (lost_) return false;
     const bool path_intact =
-        found_ && std::none_of(just_broken.begin(), just_broken.end(), [&](int b) { return on_path_[b]; });
+        std::none_of(just_broken.begin(), just_broken.end(), [&](int b) { return on_path_[b]; });
     if (!path_intact) lost_ = !search(bonds);
     return !lost_;
 }
@@ -35,7 +38,6 @@ bool Connection::search(const Bonds& bonds) {
         int i = queue[head];
         if (to_[i]) {
             for (; came_by[i] >= 0; i = bonds.other(came_by[i], i)) on_path_[came_by[i]] = 1;
-            found_ = true;
             return true;
         }
         for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
@@ -65,7 +67,9 @@ Connection held_to_loaded(const Simulation<Dim>& simulation) {
         held.insert(held.end(), hold.particles.begin(), hold.particles.end());
     if (const int l = primary_load(simulation.physics()); l >= 0)
         loaded = simulation.physics().loads[l].particles;
-    return {held, loaded, simulation.model().particles.count()};
+    const std::unordered_set<int> both(loaded.begin(), loaded.end());
+    std::erase_if(held, [&](int i) { return both.count(i) > 0; });
+    return {held, loaded, simulation.model().bonds};
 }
 
 }  // namespace
@@ -74,9 +78,7 @@ template <int Dim>
 Watch<Dim>::Watch(const Simulation<Dim>& simulation)
     : simulation_(simulation),
       primary_(primary_load(simulation.physics())),
-      connection_(held_to_loaded(simulation)) {
-    connection_.holds(simulation.model().bonds, {});
-}
+      connection_(held_to_loaded(simulation)) {}
 
 template <int Dim>
 void Watch<Dim>::look() {
@@ -99,16 +101,30 @@ void Watch<Dim>::look() {
         }
         return e;
     };
-    if (!just_broken_.empty() && !events_.first_break) events_.first_break = event(just_broken_.front().bond);
-
-    const bool together = connection_.can_be_asked() &&
-                          (events_.separation || connection_.holds(model.bonds, simulation_.just_broken()));
-    if (connection_.can_be_asked() && !together) events_.separation = event(just_broken_.back().bond);
-    if (primary_ >= 0 && (!events_.separation || events_.separation->time == simulation_.time())) {
-        if (!events_.peak_load || now.load > events_.peak_load->load) events_.peak_load = event(-1);
+    if (!just_broken_.empty() && !events_.first_break) {
+        const auto most = std::max_element(
+            just_broken_.begin(), just_broken_.end(),
+            [](const Break& a, const Break& b) { return std::abs(a.strain) < std::abs(b.strain); });
+        events_.first_break = event(most->bond);
     }
-    if (events_.peak_load && events_.peak_load->load > 0 && now.load <= 0.8 * events_.peak_load->load)
+    const bool together = !connection_.existed() || events_.separation ||
+                          connection_.holds(model.bonds, simulation_.just_broken());
+    if (!together) events_.separation = event(just_broken_.back().bond);
+
+    if (primary_ < 0) return;
+    const bool before_separation = !events_.separation || events_.separation->time == simulation_.time();
+    if (before_separation && (!events_.peak_load || now.load > events_.peak_load->load)) {
+        events_.peak_load = event(-1);
+        peak_confirmed_ = false;
+    }
+    if (events_.peak_load->load > 0 && now.load <= 0.8 * events_.peak_load->load &&
+        (events_.first_break || !simulation_.can_break()))
         peak_confirmed_ = true;
+}
+
+template <int Dim>
+bool Watch<Dim>::settled() const {
+    return simulation_.steps() >= settling_steps || events_.first_break;
 }
 
 template <int Dim>
@@ -125,12 +141,9 @@ HistoryRow Watch<Dim>::row() {
                    .momentum = to_3d<Dim>(simulation_.momentum())};
     scale_ = std::max({scale_, std::abs(e.work), e.elastic, e.kinetic});
     row.imbalance = scale_ > 0 ? std::abs(e.sum() - e.work) / scale_ : 0;
-    // In its first steps any run is off by about 1 / steps^2, the start of the trapezoidal sum over a ramp, of next to
-    // no energy: that says nothing about the run.
-    if (simulation_.steps() >= settling_steps) {
-        worst_ = std::max(worst_, row.imbalance);
-        if (!events_.first_break) worst_before_break_ = worst_;
-    }
+    last_ = row.imbalance;
+    if (settled()) worst_ = std::max(worst_, row.imbalance);
+    if (!events_.first_break) worst_before_break_ = worst_imbalance();
     for (std::size_t l = 0; l < simulation_.physics().loads.size(); ++l) {
         const LoadReading reading = simulation_.read(static_cast<int>(l));
         row.loads.push_back(reading.load);

@@ -13,10 +13,10 @@ namespace hibi {
 /// another one looked for. Exact at every step, and nearly free.
 class Connection {
  public:
-    /// Both lists may share particles; an empty one means that the question cannot be asked.
-    Connection(const std::vector<int>& from, const std::vector<int>& to, int particles);
+    /// Without a path to begin with, an empty list say, there is nothing that could be lost.
+    Connection(const std::vector<int>& from, const std::vector<int>& to, const Bonds& bonds);
 
-    bool can_be_asked() const { return asked_; }
+    bool existed() const { return existed_; }
     /// Is there still a path? `just_broken` are the bonds broken since the last call.
     bool holds(const Bonds& bonds, std::span<const int> just_broken);
 
@@ -24,7 +24,7 @@ class Connection {
     bool search(const Bonds& bonds);
 
     std::vector<char> from_, to_;
-    bool asked_ = false, found_ = false, lost_ = false;
+    bool existed_ = false, lost_ = false;
     std::vector<char> on_path_;  ///< per bond
 };
 
@@ -34,17 +34,22 @@ class Watch {
  public:
     explicit Watch(const Simulation<Dim>& simulation);
 
-    /// After every step.
+    /// After every step. A peak of the load is confirmed by a fall of a fifth, where bonds can break only
+    /// after the first has: an elastic wave is no peak.
     void look();
+    /// Does the energy balance say something yet? In its first 100 steps any run is off by about 1 / steps^2
+    /// of next to no energy, the start of the trapezoidal sum over a ramp; unless bonds break already.
+    bool settled() const;
 
     const Events& events() const { return events_; }
-    bool peak_confirmed() const {
-        return peak_confirmed_;
-    }  ///< the load has fallen by a fifth since its peak
+    /// Is there, before the run, a path of bonds from a held to a primary-loaded particle? What is loaded and
+    /// held at once, a roller say, does not count as held.
+    bool can_separate() const { return connection_.existed(); }
+    bool peak_confirmed() const { return peak_confirmed_; }  ///< see look()
     const std::vector<Break>& just_broken() const { return just_broken_; }
     /// The current row; also brings the energy balance up to date.
     HistoryRow row();
-    double worst_imbalance() const { return worst_; }
+    double worst_imbalance() const { return settled() ? worst_ : last_; }
     double imbalance_before_first_break() const { return worst_before_break_; }
     int primary() const { return primary_; }  ///< index of the load that drives curve and events, or -1
 
@@ -55,7 +60,7 @@ class Watch {
     Events events_;
     bool peak_confirmed_ = false;
     std::vector<Break> just_broken_;
-    double scale_ = 0, worst_ = 0, worst_before_break_ = 0;
+    double scale_ = 0, worst_ = 0, worst_before_break_ = 0, last_ = 0;
 };
 
 extern template class Watch<2>;

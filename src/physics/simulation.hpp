@@ -61,6 +61,7 @@ class Simulation {
     std::span<const int> just_broken() const { return just_broken_; }
     std::span<const double> breaking_strains() const { return breaking_strains_; }
     int broken() const { return broken_; }
+    bool can_break() const { return !limits_.upper.empty(); }
 
     Energies energies() const;
     double kinetic_energy() const { return kinetic_; }
@@ -93,6 +94,7 @@ class Simulation {
         double moved = 0, old_force = 0;        ///< in this step (m); total force before it (N)
     };
 
+    void turn_with_neighbours();
     void kick();
     void drift();
     void prescribe_motion();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,9 +13,9 @@ namespace hibi {
 namespace {
 
 /// Everything a run writes beside its states and frames.
-constexpr const char* single_files[] = {"movie.mp4",  "movie.part.mp4",    "poster.png",  "strip.png",
-                                        "cracks.png", "history.csv",       "breaks.csv",  "scene.toml",
-                                        "run.json",   "states.hdf.series", "frames.json", "report.html"};
+constexpr const char* tables[] = {"history.csv", "breaks.csv", "scene.toml", "run.json", "states.hdf.series"};
+constexpr const char* pictures[] = {"movie.mp4", "movie.part.mp4", "movie.whole.mp4", "poster.png",
+                                    "frames.json"};
 
 void remove_one(const std::filesystem::path& file) {
     std::error_code error;
@@ -22,6 +23,11 @@ void remove_one(const std::filesystem::path& file) {
     if (error)
         throw std::runtime_error(
             fmt::format("{}: cannot remove what an earlier run left: {}", file.string(), error.message()));
+}
+
+void remove_with_unfinished(const std::filesystem::path& file) {
+    remove_one(file);
+    remove_one(file.string() + ".tmp");
 }
 
 /// 000000.hdf, 000000.hdf.tmp
@@ -43,14 +49,27 @@ void remove_numbered(const std::filesystem::path& folder, const std::string& ext
 }  // namespace
 
 void remove_leftovers(const std::filesystem::path& folder) {
-    for (const char* name : single_files) {
-        remove_one(folder / name);
-        remove_one(folder / (std::string(name) + ".tmp"));
-    }
-    remove_one(folder / "states" / "topology.hdf");
-    remove_one(folder / "states" / "topology.hdf.tmp");
+    remove_pictures(folder);
+    for (const char* name : tables) remove_with_unfinished(folder / name);
+    remove_with_unfinished(folder / "states" / "topology.hdf");
     remove_numbered(folder / "states", ".hdf");
+}
+
+void remove_pictures(const std::filesystem::path& folder) {
+    for (const char* name : pictures) remove_with_unfinished(folder / name);
     remove_numbered(folder / "frames", ".png");
+}
+
+bool holds_run(const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / "run.json") ||
+           std::filesystem::exists(folder / "states" / "topology.hdf");
+}
+
+std::filesystem::path one_leftover(const std::filesystem::path& folder) {
+    for (const auto& names : {std::span<const char* const>(tables), std::span<const char* const>(pictures)})
+        for (const char* name : names)
+            if (std::filesystem::exists(folder / name)) return folder / name;
+    return {};
 }
 
 }  // namespace hibi

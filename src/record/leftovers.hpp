@@ -7,4 +7,13 @@ namespace hibi {
 /// Throws std::runtime_error naming what cannot be removed.
 void remove_leftovers(const std::filesystem::path& folder);
 
+/// The same for what drawing it wrote: frames, film and poster.
+void remove_pictures(const std::filesystem::path& folder);
+
+/// Does the folder hold a run, finished or not?
+bool holds_run(const std::filesystem::path& folder);
+
+/// A file there that has the name of one that a run writes; empty if there is none.
+std::filesystem::path one_leftover(const std::filesystem::path& folder);
+
 }  // namespace hibi

@@ -51,10 +51,9 @@ RunReader::RunReader(std::filesystem::path folder) : folder_(std::move(folder)) 
     const int bonds = static_cast<int>(topology_.first.size());
     broken_at_ = break_times(folder_ / "breaks.csv", bonds);
 
-    if (std::filesystem::exists(folder_ / "run.json")) {
-        summary_ = read_summary(folder_);
-        return;
-    }
+    // A run that is killed leaves the run.json it began with, which counts no steps.
+    if (std::filesystem::exists(folder_ / "run.json")) summary_ = read_summary(folder_);
+    if (summary_.steps > 0) return;
     summary_.particles = static_cast<int>(topology_.reference_position.size());
     summary_.bonds = bonds;
     summary_.broken = static_cast<int>(std::ranges::count_if(
@@ -62,7 +61,10 @@ RunReader::RunReader(std::filesystem::path folder) : folder_(std::move(folder)) 
     summary_.dimension = topology_.dimension;
     summary_.steps = states_.back().step;
     summary_.end_time = summary_.events.end = states_.back().time;
-    summary_.stopped = "run.json is missing: the run did not come to its end";
+    summary_.trusted = false;
+    summary_.stopped = "the run did not come to its end";
+    const std::vector<Break> breaks = read_breaks(folder_ / "breaks.csv");
+    if (!breaks.empty()) summary_.events.first_break = Event{.time = breaks.front().time};
 }
 
 Snapshot RunReader::read(int state) const { return read_state(states_.at(state).file, topology_); }

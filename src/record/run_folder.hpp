@@ -62,7 +62,8 @@ void write_summary(const std::filesystem::path& folder, const RunSummary& summar
 struct FrameInfo {
     std::string file;                    ///< relative to the folder: frames/000000.png
     double time = 0;                     ///< simulated time (s)
-    std::optional<std::string> event{};  ///< what happens in this frame
+    std::optional<std::string> event{};  ///< the most telling event of this frame
+    std::vector<std::string> events{};   ///< all of them
     int broken = 0;                      ///< bonds drawn as broken
     std::string sha256;                  ///< pixel_hash of the frame
 };

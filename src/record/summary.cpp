@@ -134,6 +134,7 @@ void write_frames(const std::filesystem::path& folder, const std::vector<FrameIn
         list.push_back({{"file", frame.file},
                         {"time", frame.time},
                         {"event", or_null(frame.event)},
+                        {"events", frame.events},
                         {"broken", frame.broken},
                         {"sha256", frame.sha256}});
     write_file(folder / "frames.json", list.dump(1) + "\n");

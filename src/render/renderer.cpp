@@ -65,7 +65,7 @@ struct Renderer::Impl {
         bond.emplace(*gl, "bond", options.shaders);
         crack.emplace(*gl, "crack", options.shaders);
         make_framebuffer();
-        make_colour_map(colour_map(view.map));
+        make_colour_map(colour_map(view.map.value_or("inferno")));
         make_tables();
         gl->Enable(GL_PROGRAM_POINT_SIZE);
         gl->Enable(GL_BLEND);

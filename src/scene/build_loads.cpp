@@ -121,7 +121,11 @@ Load make_load(const Scene& scene, const Model<2>& model, const LoadSpec& spec, 
     }
     check_finite(model, load, scene.run.max_time, path, problems);
     const Vec3 total = resultant(model, load, load.ramp.duration);
-    if (total.allFinite() && total.norm() > 0)
+    double gross = 0;  // of a pressure all round only rounding is left: that is no direction
+    if (load.kind == Load::Kind::pressure)
+        for (const Vec3& A : load.share) gross += A.norm();
+    const double value = std::abs(load.value[0](Vec3::Zero(), load.ramp.duration));
+    if (total.allFinite() && total.norm() > 1e-9 * gross * value)
         load.direction = total.normalized();
     else if (!spec.face)
         load.direction = !load.driven[0] && load.driven[1] ? Vec3::UnitY() : Vec3::UnitX();

@@ -58,8 +58,8 @@ const std::vector<KeyBlock>& scene_blocks() {
              "radius within which particles are bonded, in spacings; above sqrt 2",
              "2.1"},
             {"elasticity", choice, "", "moment-matched",
-             "moment-matched: weights corrected at surfaces, rotation from the deformation; thesis: plain weights "
-             "and an independent angle per particle, as in the first MPS papers",
+             "moment-matched: weights corrected at surfaces, rotation from the deformation; thesis: plain "
+             "weights and an independent angle per particle, as in the first MPS papers",
              R"("thesis")", {"moment-matched", "thesis"}},
         }},
         {"material", "[material.NAME]", Form::named, "A material, by name.", {
@@ -195,7 +195,8 @@ const std::vector<KeyBlock>& scene_blocks() {
         }},
         {"colour", "colour", Form::inner, "What colours the particles.", {
             {"field", choice, "", "bond_strain", "", R"("von_mises")", scalar_field_names()},
-            {"map", choice, "", "auto", "auto: diverging for a signed field in the range of the run, else inferno",
+            {"map", choice, "", "auto",
+             "auto: diverging for a signed field in the range of the run, else inferno",
              R"("viridis")", map_choices()},
             {"range", range, "", "run",
              R"("run": what occurs during the run; or [low, high] in the unit of the field)",

@@ -251,7 +251,7 @@ void read_view(const Value& document, ReadContext& context, View& view) {
     }
     if (auto colour = block->table("colour")) {
         set(view.field, colour->choice("field"));
-        set(view.map, colour->choice("map"));
+        if (const auto map = colour->choice("map"); map && *map != "auto") view.map = *map;
         view.range = colour->range("range", field_label(view.field).unit);
     }
     set(view.theme, block->choice("theme"));

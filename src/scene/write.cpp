@@ -179,10 +179,10 @@ void write_supports_and_loads(Writer& out, const Scene& scene) {
 void write_pictures(Writer& out, const View& view, const MovieSpec& movie) {
     out.block("[view]");
     out.line("size", fmt::format("[{}, {}]", view.width, view.height));
-    out.line("colour",
-             fmt::format(
-                 "{{ field = {}, map = {}, range = {} }}", quote(view.field), quote(view.map),
-                 view.range ? fmt::format("[{}, {}]", view.range->at(0), view.range->at(1)) : quote("run")));
+    out.line("colour", fmt::format("{{ field = {}, map = {}, range = {} }}", quote(view.field),
+                                   quote(view.map.value_or("auto")),
+                                   view.range ? fmt::format("[{}, {}]", view.range->at(0), view.range->at(1))
+                                              : quote("run")));
     out.line("theme", quote(view.theme));
     out.line("show", names(view.show));
     if (view.window)

@@ -105,5 +105,13 @@ TEST(Thesis32, ThesisVariantBreaksAtTheSamePlaceUnderASmallerLoad) {
     EXPECT_LT(watch.events().first_break->load, 4.25e7);
 }
 
+TEST(SlowThesis32, PlateOf3200ParticlesBreaksUnderStillLess) {
+    Scene scene = parse_scene(source("bending_fine.toml"), "fine", {{"spacing", "0.5 m"}});
+    Built<2> built = build(scene);
+    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
+    while (simulation.broken() == 0 && simulation.time() < 20) simulation.step();
+    EXPECT_NEAR(simulation.read(0).load / 3.03e7, 1, 0.02);
+}
+
 }  // namespace
 }  // namespace hibi

@@ -19,8 +19,8 @@ TEST(Connection, AgreesWithUnionFindAfterEveryBreak) {
         Model<2> model = plate(12, 6, 1);
         const auto from = where(model, [](const Vec<2>& X) { return X.x() < 1; });
         const auto to = where(model, [](const Vec<2>& X) { return X.x() > 11; });
-        Connection connection(from, to, model.particles.count());
-        ASSERT_TRUE(connection.holds(model.bonds, {}));
+        Connection connection(from, to, model.bonds);
+        ASSERT_TRUE(connection.existed());
         std::vector<int> order(model.bonds.count());
         std::iota(order.begin(), order.end(), 0);
         std::shuffle(order.begin(), order.end(), random);
@@ -93,6 +93,64 @@ TEST(Watch, SeesTheEventsOfABarPulledApartInTheirOrder) {
     // a displacement of the grip that separates the bar is at least what its bonds can stretch
     EXPECT_GT(e.separation->displacement, 0.02 * 11 * 0.5);
     EXPECT_EQ(e.time_of({EventName::separation, 0.25}), e.separation->time + 0.25);
+}
+
+TEST(Watch, WhatWasNeverConnectedCannotSeparate) {
+    const std::vector<Notch<2>> through = {{.name = "through", .points = {{6, -1}, {6, 4}}}};
+    Material m = test::concrete();
+    m.break_strain = 0.02;
+    Model<2> model = plate(12, 3, 1, m, Assumption::plane_stress, through);
+    Physics physics;
+    physics.holds = {{"clamp", where(model, [](const Vec<2>& X) { return X.x() < 1; }), {true, true, false}}};
+    physics.loads = {
+        test::pull(model, where(model, [](const Vec<2>& X) { return X.x() > 11; }), {1e3, 0}, 0)};
+    Simulation<2> simulation(model, physics);
+    Watch<2> watch(simulation);
+    EXPECT_FALSE(watch.can_separate());
+    for (int k = 0; k < 10; ++k) {
+        simulation.step();
+        watch.look();
+    }
+    EXPECT_FALSE(watch.events().separation);
+}
+
+TEST(Watch, WhatIsLoadedDoesNotCountAsHeld) {
+    // Shear: the top row stands on rollers and is pushed sideways; only the bottom holds the plate.
+    Material m = test::concrete();
+    m.break_strain = 0.02;
+    Model<2> model = plate(8, 8, 1, m);
+    const auto top = where(model, [](const Vec<2>& X) { return X.y() > 7; });
+    Physics physics;
+    physics.holds = {{"bottom", where(model, [](const Vec<2>& X) { return X.y() < 1; }), {true, true, false}},
+                     {"rollers", top, {false, true, false}}};
+    physics.loads = {test::pull(model, top, {1e8, 0}, 1)};
+    Simulation<2> simulation(model, physics);
+    Watch<2> watch(simulation);
+    ASSERT_TRUE(watch.can_separate());
+    while (!watch.events().separation && simulation.time() < 5) {
+        simulation.step();
+        watch.look();
+    }
+    EXPECT_TRUE(watch.events().separation);
+}
+
+TEST(Watch, AnElasticWaveIsNoPeak) {
+    // Pulled at once: the reaction swings long before anything breaks.
+    Simulation<2> simulation = bar(0.2, 2);
+    Watch<2> watch(simulation);
+    double largest = 0, least_after = 1e300;
+    while (!watch.events().first_break && simulation.time() < 5) {
+        simulation.step();
+        watch.look();
+        const double load = simulation.read(0).load;
+        if (load > largest) {
+            largest = load;
+            least_after = load;
+        }
+        least_after = std::min(least_after, load);
+        ASSERT_FALSE(watch.peak_confirmed()) << simulation.time();
+    }
+    ASSERT_TRUE(watch.events().first_break);
 }
 
 TEST(Watch, AnEventThatDidNotHappenHasNoTime) {

@@ -144,7 +144,8 @@ TEST_P(EveryLaw, ASmallRotationIsForceFreeToItsOwnRounding) {
     }
     if (model.spin) model.spin->angle.assign(model.particles.count(), angle);
     law->forces(model);
-    EXPECT_LE(force_scale(model) / (2.1e8 * 0.5), 1e-13 * angle * 10);  // a cos - 1 from cos alone is off by 1e-16
+    EXPECT_LE(force_scale(model) / (2.1e8 * 0.5),
+              1e-13 * angle * 10);  // a cos - 1 from cos alone is off by 1e-16
 }
 
 TEST_P(EveryLaw, TimeStepEstimateLiesJustBelowTheTrueLimit) {
@@ -183,6 +184,27 @@ TEST_P(EveryLaw, TimeStepEstimateLiesJustBelowTheTrueLimit) {
         const Eigen::MatrixXd T = tangent_at_rest(model);
         EXPECT_LE((T / model.particles.mass[0] - K).norm() / K.norm(), 1e-6);
     }
+}
+
+TEST(TimeStep, EstimateHoldsForAStiffInclusionOfAThousandTimes) {
+    Model<2> model;
+    Material soft = test::concrete(), stiff = soft;
+    stiff.youngs_modulus *= 1000;
+    model.materials = {soft, stiff};
+    add_body<2>(model, {.name = "soft", .shape = {Box<2>{{0, 0}, {8, 4}}}, .spacing = 1, .material = 0});
+    add_body<2>(
+        model,
+        {.name = "stiff", .shape = {Box<2>{{8, 0}, {12, 4}}}, .spacing = 1, .material = 1, .bonded_to = {0}});
+    connect<2>(model, {});
+    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
+    const double estimate = highest_frequency(model, *law);
+    Eigen::MatrixXd K = tangent_at_rest(model);
+    K /= model.particles.mass[0];
+    const double exact =
+        std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues().maxCoeff());
+    EXPECT_LE(estimate, exact * (1 + 1e-6));
+    EXPECT_GE(estimate, exact * 0.99);
+    EXPECT_GE(frequency_bound(model), exact);
 }
 
 INSTANTIATE_TEST_SUITE_P(

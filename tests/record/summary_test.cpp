@@ -120,14 +120,19 @@ TEST(Summary, DamageIsNamed) {
 TEST(Frames, AreListedWithNullWhereNothingHappens) {
     const TemporaryFolder folder;
     write_frames(folder.path(), {{.file = "frames/000000.png", .time = 0, .sha256 = "ab"},
-                                 {"frames/000001.png", 0.1, "first_break", 3, "cd"}});
-    const json expected = {
-        {{"file", "frames/000000.png"}, {"time", 0.0}, {"event", nullptr}, {"broken", 0}, {"sha256", "ab"}},
-        {{"file", "frames/000001.png"},
-         {"time", 0.1},
-         {"event", "first_break"},
-         {"broken", 3},
-         {"sha256", "cd"}}};
+                                 {"frames/000001.png", 0.1, "first_break", {"first_break", "end"}, 3, "cd"}});
+    const json expected = {{{"file", "frames/000000.png"},
+                            {"time", 0.0},
+                            {"event", nullptr},
+                            {"events", json::array()},
+                            {"broken", 0},
+                            {"sha256", "ab"}},
+                           {{"file", "frames/000001.png"},
+                            {"time", 0.1},
+                            {"event", "first_break"},
+                            {"events", {"first_break", "end"}},
+                            {"broken", 3},
+                            {"sha256", "cd"}}};
     EXPECT_EQ(json::parse(read_file(folder.path() / "frames.json")), expected);
 }
 

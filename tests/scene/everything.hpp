@@ -63,7 +63,11 @@ spacing = "0.25 m"
 [[body]]
 name = "holed"
 material = "concrete"
-difference = [{ box = [["60 m", "0 m"], ["64 m", "4 m"]] }, { disc = { centre = ["62 m", "2 m"], radius = "1 m" } }, { polygon = [["60 m", "0 m"], ["61 m", "0 m"], ["60 m", "1 m"]] }, { ring = { centre = ["63 m", "3 m"], inner = "0.1 m", outer = "0.4 m" } }]
+difference = [
+  { box = [["60 m", "0 m"], ["64 m", "4 m"]] },
+  { disc = { centre = ["62 m", "2 m"], radius = "1 m" } },
+  { polygon = [["60 m", "0 m"], ["61 m", "0 m"], ["60 m", "1 m"]] },
+  { ring = { centre = ["63 m", "3 m"], inner = "0.1 m", outer = "0.4 m" } }]
 spacing = "0.25 m"
 [[notch]]
 name = "slit"
@@ -131,7 +135,8 @@ magnify = 10
 [movie]
 duration = "8 s"
 fps = 30
-slow = [{ around = "first_break", span = "0.5 s", rate = 0.05 }, { around = "2 s", span = "10 ms", rate = 0.1 }]
+slow = [{ around = "first_break", span = "0.5 s", rate = 0.05 },
+        { around = "2 s", span = "10 ms", rate = 0.1 }]
 formats = ["mp4"]
 )scene";
 

@@ -176,6 +176,11 @@ INSTANTIATE_TEST_SUITE_P(
               "s.toml:15:2: error: [fix] stands where a block is expected\n"
               "   15 | [fix]\n"
               "      |  ^^^ write [[fix]]"},
+        Wrong{"AUnitInATableOfOneLine", "[run]",
+              "[movie]\nslow = [{ span = \"1 q\", around = \"first_break\", rate = 0.1 }]\n[run]",
+              "s.toml:25:21: error: [movie] slow span: unknown unit \"q\"\n"
+              "   25 | slow = [{ span = \"1 q\", around = \"first_break\", rate = 0.1 }]\n"
+              "      |                     ^ capitals matter: m, mm, s, ms, kg, N, kN, MN, Pa, MPa, GPa, J"},
         Wrong{"ADate", "\"60 s\"", "1979-05-27",
               "s.toml:26:12: error: [run] max_time needs a time (s); found a date or time of day\n"
               "   26 | max_time = 1979-05-27\n"
@@ -225,6 +230,12 @@ TEST(SceneErrors, TheCaretStandsRightBehindWideLetters) {
               "      |         ^^^^^^ known: x, y, z");
 }
 
+#ifdef NDEBUG
+constexpr std::chrono::milliseconds longest_answer{900};
+#else
+constexpr std::chrono::milliseconds longest_answer{9000};
+#endif
+
 /// A folder of its own for the files of one test.
 class WrongFile : public testing::Test {
  protected:
@@ -248,7 +259,7 @@ class WrongFile : public testing::Test {
         } catch (const SceneErrors& errors) {
             what = errors.what();
         }
-        EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(900)) << name;
+        EXPECT_LT(std::chrono::steady_clock::now() - begin, longest_answer) << name;
         const std::size_t path = what.find(folder_.string() + "/");
         if (path == 0) what.erase(0, folder_.string().size() + 1);
         return what.substr(0, what.find('\n'));
@@ -290,9 +301,9 @@ TEST_F(WrongFile, WithADottedKeyWithoutEnd) {
     EXPECT_EQ(answer_to("[" + key + "]"), "s.toml:1:35: error: a dotted key of more than 16 parts");
 }
 
-TEST_F(WrongFile, WithAHundredThousandMistakes) {
+TEST_F(WrongFile, WithTwentyThousandMistakes) {
     std::string keys, points = "[[body]]\npolygon = [";
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < 20000; ++i) {
         keys += std::to_string(i) + " = 1\n";
         points += "[\"1 q\", 1],";
     }
