@@ -113,7 +113,7 @@ TEST_F(Film, SameStatesOfALargerPlateForOneTwoAndThreeThreads) {
     text = std::regex_replace(text, std::regex("break_strain   = 0.1"), "break_strain = 1e-5");
     text = std::regex_replace(text, std::regex("until    = \"separation . 0.5 s\"\n"), "");
     text = std::regex_replace(text, std::regex("max_time = \"60 s\""), "max_time = \"0.06 s\"");
-    text = std::regex_replace(text, std::regex("ratio = 0.3"), "rate = \"2 1/s\"");
+    text = std::regex_replace(text, std::regex("\nratio = 0.3"), "\nrate = 2");
     const fs::path scene = folder_ / "larger.toml";
     std::ofstream(scene) << text;
     std::set<std::string> prints;
@@ -158,7 +158,7 @@ TEST_F(Film, ARunThatWasKilledIsDrawnFromWhatItLeft) {
 
 TEST_F(Film, SeparationOfWhatNeverHeldTogetherIsAnErrorBeforeTheRun) {
     std::string text = text_of(scene_) + "\n[[notch]]\nline = [[\"20 m\", \"-1 m\"], [\"20 m\", \"21 m\"]]\n";
-    text = std::regex_replace(text, std::regex("ratio = 0.3"), "rate = \"2 1/s\"");
+    text = std::regex_replace(text, std::regex("\nratio = 0.3"), "\nrate = 2");
     const fs::path scene = folder_ / "apart.toml";
     std::ofstream(scene) << text;
     const Answer answer = hibi("run " + scene.string() + " -q -o " + (folder_ / "apart").string());
