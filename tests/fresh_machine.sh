@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Shows that ./run and ./test do all the set-up on a fresh machine: makes a minimal Debian 12 in a folder,
-# clones the committed project into it, and runs both there, twice, without /proc and with nothing installed
-# but git.
+# clones the committed project into it, and runs both there, twice, with nothing installed but git.
 #
 #     tests/fresh_machine.sh [FOLDER]       default: build/fresh; what an earlier call left there is removed
 #

@@ -77,7 +77,9 @@ FilmPlan plan_film(const MovieSpec& movie, const Events& events, const std::vect
     mark(0, EventName::start);
     mark(frames - 1, EventName::end);
     for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
-        if (const std::optional<double> time = events.time_of({name, 0}))
+        // A load that never fell has no peak worth a label: it is simply the end.
+        if (const std::optional<double> time = events.time_of({name, 0});
+            time && !(name == EventName::peak_load && *time >= end))
             if (const std::optional<int> frame = first_frame(plan.time, *time)) mark(*frame, name);
     plan.poster = poster_frame(plan, events, broken_at);
     return plan;

@@ -33,11 +33,11 @@ double mark_quantity(const Topology& topology, int load, const HistoryRow& row) 
     return load < static_cast<int>(values.size()) ? values[load] : 0;
 }
 
-/// A signed field is shown by the map made for it, unless a range of the user's may have its zero off the middle.
+/// A signed field is shown by the map made for it, unless a range of the user's may have its zero off the
+/// middle.
 View shown_view(const Scene& scene) {
     View view = scene.view;
-    if (!view.map)
-        view.map = !view.range && field_label(view.field).is_signed ? "diverging" : "inferno";
+    if (!view.map) view.map = !view.range && field_label(view.field).is_signed ? "diverging" : "inferno";
     return view;
 }
 
@@ -55,7 +55,8 @@ std::string describe(const Scene& scene, const Topology& topology) {
 RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererOptions& options)
     : run_(run),
       view_(shown_view(scene)),
-      range_(scene.view.range ? *scene.view.range : colour_range(run, scene.view.field)),
+      range_(scene.view.range ? *scene.view.range
+                              : colour_range(run, scene.view.field, *view_.map == "diverging")),
       until_(run.summary().events.separation ? run.summary().events.separation->time
                                              : std::numeric_limits<double>::infinity()),
       plan_(plan_film(scene.movie, run.summary().events, run.broken_at(), run.states().front().time,

@@ -60,7 +60,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
     return {box[0] - radius, box[1] - radius, box[2] + radius, box[3] + radius};
 }
 
-std::array<double, 2> colour_range(const RunReader& run, const std::string& field) {
+std::array<double, 2> colour_range(const RunReader& run, const std::string& field, bool symmetric) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (int s = 0; s <= last_counting_state(run); ++s) {
         const RunReader::Extent extent = run.extent(s);
@@ -72,12 +72,15 @@ std::array<double, 2> colour_range(const RunReader& run, const std::string& fiel
     if (!(low <= high)) low = high = 0;
     low = rounded_up(low);
     high = rounded_up(high);
-    if (field_label(field).is_signed) {
+    if (symmetric) {
         high = std::max(std::abs(low), std::abs(high));
         low = -high;
     } else {
         low = std::min(low, 0.0);
         high = std::max(high, 0.0);
+        // A hundredth of the other side is not worth showing.
+        if (-low < 0.01 * high) low = 0;
+        if (high < -0.01 * low) high = 0;
     }
     if (high <= low) high = low + 1;
     return {low, high};

@@ -15,7 +15,7 @@ int last_counting_state(const RunReader& run);
 std::array<double, 4> body_window(const RunReader& run, const View& view);
 
 /// Range of the coloured field over all states that count, from the finite values, ends rounded outward.
-/// Signed fields: symmetric about zero; fields without negative values: from zero. Never empty.
-std::array<double, 2> colour_range(const RunReader& run, const std::string& field);
+/// Holds zero; symmetric about it where the map has its middle there. Never empty.
+std::array<double, 2> colour_range(const RunReader& run, const std::string& field, bool symmetric);
 
 }  // namespace hibi

@@ -100,15 +100,16 @@ TEST_F(WholeRun, TheWindowHoldsTheBodyUpToSeparationAndNoMore) {
 
 TEST_F(WholeRun, ASignedFieldHasASymmetricRoundRange) {
     // 0.2 * height / rows at the clamp: at most 0.2 * 2 / 5 = 0.08
-    EXPECT_NEAR(colour_range(*run_, "bond_strain")[0], -0.08, 1e-9);
-    EXPECT_NEAR(colour_range(*run_, "bond_strain")[1], 0.08, 1e-9);
-    EXPECT_EQ(colour_range(*run_, "energy")[0], 0);
-    EXPECT_NEAR(colour_range(*run_, "energy")[1], 4, 1e-9);                         // height^2 = 4
-    EXPECT_LT(colour_range(*run_, "damage")[0], colour_range(*run_, "damage")[1]);  // zero everywhere
-    cantilever_.rows = 4;  // 0.2 * 1.5 / 4 = 0.075, rounded up
+    EXPECT_NEAR(colour_range(*run_, "bond_strain", true)[0], -0.08, 1e-9);
+    EXPECT_NEAR(colour_range(*run_, "bond_strain", true)[1], 0.08, 1e-9);
+    EXPECT_EQ(colour_range(*run_, "energy", false)[0], 0);
+    EXPECT_NEAR(colour_range(*run_, "energy", false)[1], 4, 1e-9);  // height^2 = 4
+    EXPECT_LT(colour_range(*run_, "damage", false)[0],
+              colour_range(*run_, "damage", false)[1]);  // zero everywhere
+    cantilever_.rows = 4;                                // 0.2 * 1.5 / 4 = 0.075, rounded up
     cantilever_.write(folder_.path());
-    EXPECT_NEAR(colour_range(RunReader(folder_.path()), "bond_strain")[1], 0.08, 1e-9);
-    EXPECT_NEAR(colour_range(RunReader(folder_.path()), "energy")[1], 2.5, 1e-9);  // 1.5^2 = 2.25
+    EXPECT_NEAR(colour_range(RunReader(folder_.path()), "bond_strain", true)[1], 0.08, 1e-9);
+    EXPECT_NEAR(colour_range(RunReader(folder_.path()), "energy", false)[1], 2.5, 1e-9);  // 1.5^2 = 2.25
 }
 
 }  // namespace
