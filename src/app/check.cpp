@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/estimate.hpp"
+#include "app/run.hpp"
 #include "base/units.hpp"
 #include "physics/simulation.hpp"
 
@@ -193,6 +194,7 @@ int check_command(const std::filesystem::path& file, const Overrides& overrides,
     const Scene scene = read_scene(file, overrides);
     const Built<2> built = build(scene);
     Simulation<2> simulation(built.model, built.physics);
+    require_separable(scene, Watch<2>(simulation));
     const Estimate estimate = estimate_run(scene, built, simulation);
     // The stages are asked of a simulation that has made steps, the values are those of the scene.
     (json ? print_json : print_report)(scene, built, simulation, estimate);

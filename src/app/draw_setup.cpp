@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
 #include "app/draw.hpp"
 #include "app/marks.hpp"
+#include "app/notch_line.hpp"
 #include "app/picture.hpp"
 #include "app/run_drawing.hpp"
 #include "image/layout.hpp"
@@ -13,6 +16,9 @@
 namespace hibi {
 
 void draw_setup(const Scene& scene, const std::filesystem::path& png, const DrawOptions& options) {
+    if (png.extension() != ".png" || std::filesystem::is_directory(png))
+        throw std::runtime_error(
+            fmt::format("{}: is no name of a PNG file; write for example -o setup.png", png.string()));
     const Topology topology = topology_of(scene, build(scene));
     View view = scene.view;
     view.map = "viridis";  // stands for the body's number here, not for a field
@@ -52,13 +58,8 @@ void draw_setup(const Scene& scene, const std::filesystem::path& png, const Draw
     OverlayFrame over{.pixels_per_metre = picture.camera.scale, .symbols = {}};
     const double unit = lay_out(view.width, view.height, {}).unit;
     for (const Mark& mark : marks) over.symbols.push_back(place_mark(mark, x, y, picture.camera, 1, unit));
-    for (const std::array<Vec3, 2>& cut : topology.notches) {
-        Symbol notch;
-        notch.kind = Symbol::Kind::notch;
-        for (const Vec3& p : cut)
-            notch.points.push_back({picture.camera.pixel_x(p.x()), picture.camera.pixel_y(p.y())});
-        over.symbols.push_back(notch);
-    }
+    for (const NotchLine& notch : find_notches(topology))
+        over.symbols.push_back(place_notch(notch, topology, x, y, picture.camera));
     overlay.draw(image, over);
     write_png(png, image, {{"Title", scene.title}, {"Software", "hibi " HIBI_VERSION}}, true);
 }

@@ -7,7 +7,9 @@ namespace hibi {
 
 namespace {
 
-constexpr double label_duration = 1.6, label_fading = 0.4, flash_duration = 0.6;  // seconds of playback
+constexpr double label_fading = 0.3, flash_duration = 0.6;  // seconds of playback
+/// A label names a moment: in a short film it must not outlast what it names.
+constexpr double label_share = 0.08;
 /// The part of a slow span that lies before its event.
 constexpr double slow_lead = 0.2;
 
@@ -91,11 +93,13 @@ double FilmPlan::film_time(int frame) const {
 }
 
 std::optional<FilmPlan::Label> FilmPlan::label(int frame) const {
+    const double label_duration = label_share * map.duration();
     for (int k = frame; k >= 0; --k) {
         const double age = film_time(frame) - film_time(k);
         if (age >= label_duration) break;
         if (event[k] && !words(*event[k]).empty())
-            return Label{words(*event[k]), std::min(1.0, (label_duration - age) / label_fading)};
+            return Label{words(*event[k]),
+                         std::min(1.0, (label_duration - age) / std::min(label_fading, label_duration))};
     }
     return {};
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "app/check.hpp"
@@ -46,7 +47,7 @@ int command_line(int argc, char** argv) {
     app.set_version_flag("--version", "hibi " HIBI_VERSION);
     app.set_help_all_flag("--help-all", "Help of every command");
 
-    std::string scene, folder, png = "setup.png", name, template_name, view;
+    std::string gl = "osmesa", scene, folder, png = "setup.png", name, template_name, view;
     std::vector<std::string> parameters;
     bool no_movie = false, force = false, quiet = false, json = false, list = false;
     int thread_count = 0;
@@ -60,18 +61,15 @@ int command_line(int argc, char** argv) {
             ->allow_extra_args(false);
     };
     const auto drawing_options = [&](CLI::App* command) {
-        command
-            ->add_option("--gl", draw.renderer.backend,
-                         "OpenGL by osmesa (default) or egl; both give the same pixels")
-            ->transform(CLI::CheckedTransformer(
-                std::map<std::string, GlBackend>{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}}));
+        command->add_option("--gl", gl, "OpenGL by osmesa (default) or egl; both give the same pixels")
+            ->check(CLI::IsMember({"osmesa", "egl"}));
         command->add_option("--shaders", draw.renderer.shaders, "read the shaders from this folder");
     };
     const auto common = [&](CLI::App* command) {
         command
             ->add_option("--threads", thread_count,
                          "threads of the solver (default: all cores); the bits stay the same")
-            ->check(CLI::PositiveNumber);
+            ->check(CLI::Range(1, 1024));
         command->add_flag("-q,--quiet", quiet, "no progress");
     };
 
@@ -109,11 +107,24 @@ int command_line(int argc, char** argv) {
     CLI::App* doctor = app.add_subcommand("doctor", "What works on this machine, and what to install");
     doctor->add_flag("--json", json, "print JSON");
 
+    for (CLI::App* command : app.get_subcommands({}))
+        command->footer("");  // the examples stand in hibi --help
+    const auto is_command = [&](const std::string& word) {
+        return std::ranges::any_of(app.get_subcommands({}),
+                                   [&](CLI::App* c) { return c->get_name() == word; });
+    };
+    if (argc > 1 && argv[1][0] != '-' && !is_command(argv[1])) {
+        fmt::print(stderr,
+                   "hibi: error: unknown command \"{}\"; known: run, render, check, preview, new, doctor\n",
+                   argv[1]);
+        return 2;
+    }
     try {
         app.parse(argc, argv);
         if (thread_count > 0) set_threads(thread_count);
         const Overrides overrides = overrides_from(parameters);
         draw.movie = !no_movie;
+        if (gl == "egl") draw.renderer.backend = GlBackend::egl;
         if (*run) {
             RunOptions options{.scene = scene,
                                .overrides = overrides,

@@ -55,7 +55,9 @@ void Recorder::look() {
     if (!watch_.just_broken().empty()) writer_.breaks(watch_.just_broken());
 
     const double interval = std::max(first_row_steps * simulation_.time_step(), time / rows_per_time);
-    if (time - last_row_ >= (watch_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
+    const bool event = (events.first_break && events.first_break->time == time) ||
+                       (events.separation && events.separation->time == time);
+    if (event || time - last_row_ >= (watch_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
 
     if (even_.due(time)) keep(even_);
     for (Span& span : spans_)

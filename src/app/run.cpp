@@ -46,14 +46,13 @@ void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
                         "folder with -o",
                         folder.string()));
     if (options.force) return;
-    if (!holds_run(folder)) {
-        if (const fs::path file = one_leftover(folder); !file.empty())
-            throw std::runtime_error(
-                fmt::format("{}: is no run's, but has the name of a file that a run writes; choose "
-                            "another folder with -o, or overwrite it with --force",
-                            file.string()));
-        return;
-    }
+    if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) return;
+    if (fs::is_directory(folder) && !holds_run(folder))
+        throw std::runtime_error(
+            fmt::format("{}: holds other things than a run; choose another folder with -o, or let the "
+                        "run add its files with --force",
+                        folder.string()));
+    if (!fs::is_directory(folder)) return;  // the writer says what is wrong
     const std::string other = fs::exists(folder / "run.json") ? read_summary(folder).scene_file : "unknown";
     if (other == place(options.scene)) return;
     throw std::runtime_error(
@@ -72,13 +71,6 @@ void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simu
     if (scene.damping && reached(scene.damping->until)) simulation.stop_damping();
     for (std::size_t l = 0; l < scene.loads.size(); ++l)
         if (reached(scene.loads[l].until)) simulation.release(static_cast<int>(l));
-}
-
-bool asks_for_separation(const Scene& scene) {
-    const auto asks = [](const std::optional<Moment>& m) { return m && m->event == EventName::separation; };
-    return asks(scene.run.until) || (scene.damping && asks(scene.damping->until)) ||
-           std::any_of(scene.loads.begin(), scene.loads.end(),
-                       [&](const LoadSpec& load) { return asks(load.until); });
 }
 
 bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
@@ -132,20 +124,21 @@ std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary)
     return list;
 }
 
-std::string event_line(const char* name, const std::optional<Event>& event, bool with_place) {
+std::string event_line(const char* name, const std::optional<Event>& event, bool loaded, bool with_place) {
     if (!event) return fmt::format("{:<16} -\n", name);
-    std::string line =
-        fmt::format("{:<16} t = {:<10} load {:<10} displacement {}", name, format_si(event->time, "s", 4),
-                    format_si(event->load, "N", 4), format_si(event->displacement, "m"));
+    std::string line = fmt::format("{:<16} t = {:<10}", name, format_si(event->time, "s", 4));
+    if (loaded)
+        line += fmt::format(" load {:<10} displacement {}", format_si(event->load, "N", 4),
+                            format_si(event->displacement, "m"));
     if (with_place) line += fmt::format("  at ({:.4g}, {:.4g}) m", event->position.x(), event->position.y());
     return line + "\n";
 }
 
 void print_results(const RunSummary& s, const fs::path& folder, bool drawn) {
     std::string text;
-    text += event_line("first break", s.events.first_break, true);
-    text += event_line("peak load", s.events.peak_load, false);
-    text += event_line("separation", s.events.separation, false);
+    text += event_line("first break", s.events.first_break, s.events.peak_load.has_value(), true);
+    text += event_line("peak load", s.events.peak_load, true, false);
+    text += event_line("separation", s.events.separation, true, false);
     text += fmt::format("{:<16} {} of {}, in {} steps of {}\n", "broken bonds", s.broken, s.bonds, s.steps,
                         format_si(s.time_step, "s"));
     text += fmt::format("{:<16} {:.2g} up to first break, {:.2g} to the end: {}\n", "energy imbalance",
@@ -160,6 +153,19 @@ void print_results(const RunSummary& s, const fs::path& folder, bool drawn) {
 
 }  // namespace
 
+void require_separable(const Scene& scene, const Watch<2>& watch) {
+    const auto asks = [](const std::optional<Moment>& m) { return m && m->event == EventName::separation; };
+    const bool asked = asks(scene.run.until) || (scene.damping && asks(scene.damping->until)) ||
+                       std::any_of(scene.loads.begin(), scene.loads.end(),
+                                   [&](const LoadSpec& load) { return asks(load.until); });
+    if (!asked || watch.can_separate()) return;
+    throw SceneErrors(
+        scene.file.string(), "",
+        {{.message =
+              "separation cannot happen: no bonds lead from a held particle to one of the primary [[load]], "
+              "even before the run (a particle that is both counts as loaded)"}});
+}
+
 int run_command(const RunOptions& options) {
     const Stopwatch total;
     const Scene scene = read_scene(options.scene, options.overrides);
@@ -169,11 +175,7 @@ int run_command(const RunOptions& options) {
     const Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
     Watch<2> watch(simulation);
-    if (!watch.can_separate() && asks_for_separation(scene))
-        throw SceneErrors(
-            options.scene.string(), "",
-            {{.message = "separation cannot happen: before the run there is no path of bonds from a held to "
-                         "a loaded particle (what is loaded does not count as held)"}});
+    require_separable(scene, watch);
 
     RunSummary summary;
     summary.title = scene.title;

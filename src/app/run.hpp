@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/draw.hpp"
+#include "measure/watch.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {
@@ -23,6 +24,10 @@ struct RunOptions {
 /// balance cannot be trusted. Throws SceneErrors for a wrong scene and std::runtime_error for the world's
 /// faults.
 int run_command(const RunOptions& options);
+
+/// Throws SceneErrors where the scene waits for a separation that cannot happen, since nothing holds what is
+/// loaded.
+void require_separable(const Scene& scene, const Watch<2>& watch);
 
 /// Pictures and film of a recorded run once more. `scene` absent: as recorded.
 int render_command(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& scene,

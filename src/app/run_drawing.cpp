@@ -49,7 +49,9 @@ std::string describe(const Scene& scene, const Topology& topology) {
     for (const Material& m : scene.materials)
         text += fmt::format(" · {}: E = {}, ν = {:g}", m.name, format_si(m.youngs_modulus, "Pa", 3, true),
                             m.poissons_ratio);
-    return text + (scene.assumption == Assumption::plane_stress ? " · plane stress" : " · plane strain");
+    text += scene.assumption == Assumption::plane_stress ? " · plane stress" : " · plane strain";
+    if (scene.view.magnify != 1) text += fmt::format(" · displacements drawn × {:g}", scene.view.magnify);
+    return text;
 }
 
 RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererOptions& options)
@@ -65,6 +67,7 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererO
       overlay_(view_, content(scene)),
       renderer_(view_, run.topology(), options),
       marks_(find_marks(run.topology(), view_.shows("supports"), view_.shows("loads"))),
+      notches_(find_notches(run.topology())),
       unit_(lay_out(view_.width, view_.height, {}).unit) {
     for (int k = 0; k < static_cast<int>(run.topology().loads.size()); ++k) {
         double largest = 0;
@@ -99,6 +102,8 @@ int RunDrawing::draw(int frame, Image& image) {
         const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
         over.symbols.push_back(place_mark(mark, source_.x(), source_.y(), camera_, size, unit_));
     }
+    for (const NotchLine& notch : notches_)
+        over.symbols.push_back(place_notch(notch, run_.topology(), source_.x(), source_.y(), camera_));
     overlay_.draw(image, over);
     return over.broken;
 }

@@ -5,6 +5,7 @@
 
 #include "app/film_plan.hpp"
 #include "app/marks.hpp"
+#include "app/notch_line.hpp"
 #include "app/picture.hpp"
 #include "image/overlay.hpp"
 #include "record/run_folder.hpp"
@@ -39,6 +40,7 @@ class RunDrawing {
     Overlay overlay_;
     Renderer renderer_;
     std::vector<Mark> marks_;
+    std::vector<NotchLine> notches_;
     Camera2 camera_{};
     double unit_;                  ///< Layout::unit
     std::vector<double> largest_;  ///< per load: largest magnitude of what its arrows show

@@ -81,7 +81,7 @@ void Inset::Line::draw(cairo_t* cairo, double now, double dot) const {
     for (int i = 0; i < upto; ++i) cairo_line_to(cairo, points[i][0], points[i][1]);
     cairo_line_to(cairo, end[0], end[1]);
     cairo_stroke(cairo);
-    if (dot <= 0) return;
+    if (dot <= 0 || now > time.back()) return;  // the curve ends with the separation, the load goes on
     cairo_arc(cairo, end[0], end[1], dot, 0, 6.283185307179586);
     cairo_fill(cairo);
 }

@@ -131,7 +131,11 @@ void write_png(const std::filesystem::path& file, const Image& image, const PngT
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     out.close();
     if (!out) throw std::runtime_error(file.string() + ": cannot write the picture: " + std::strerror(errno));
-    std::filesystem::rename(temporary, file);
+    std::error_code error;
+    std::filesystem::rename(temporary, file, error);
+    if (!error) return;
+    std::filesystem::remove(temporary);
+    throw std::runtime_error(file.string() + ": cannot write the picture: " + error.message());
 }
 
 Image read_png(const std::filesystem::path& file, PngText* text) {

@@ -118,7 +118,7 @@ void draw_arrows(cairo_t* cairo, const Symbol& symbol, double unit) {
 }
 
 void draw_notch(cairo_t* cairo, const Symbol& symbol, double unit) {
-    cairo_set_line_width(cairo, std::max(1.5, 3.5 * unit));
+    cairo_set_line_width(cairo, std::max(1.0, 2.5 * unit));
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
     for (const Point& p : symbol.points) cairo_line_to(cairo, p[0], p[1]);
     cairo_stroke(cairo);
@@ -127,7 +127,7 @@ void draw_notch(cairo_t* cairo, const Symbol& symbol, double unit) {
 
 Rgb colour_of(Symbol::Kind kind, const Theme& theme) {
     if (kind == Symbol::Kind::arrow) return theme.load;
-    return kind == Symbol::Kind::notch ? theme.crack_fresh : theme.support;
+    return theme.support;
 }
 
 }  // namespace

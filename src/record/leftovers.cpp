@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -63,13 +62,6 @@ void remove_pictures(const std::filesystem::path& folder) {
 bool holds_run(const std::filesystem::path& folder) {
     return std::filesystem::exists(folder / "run.json") ||
            std::filesystem::exists(folder / "states" / "topology.hdf");
-}
-
-std::filesystem::path one_leftover(const std::filesystem::path& folder) {
-    for (const auto& names : {std::span<const char* const>(tables), std::span<const char* const>(pictures)})
-        for (const char* name : names)
-            if (std::filesystem::exists(folder / name)) return folder / name;
-    return {};
 }
 
 }  // namespace hibi

@@ -13,7 +13,4 @@ void remove_pictures(const std::filesystem::path& folder);
 /// Does the folder hold a run, finished or not?
 bool holds_run(const std::filesystem::path& folder);
 
-/// A file there that has the name of one that a run writes; empty if there is none.
-std::filesystem::path one_leftover(const std::filesystem::path& folder);
-
 }  // namespace hibi

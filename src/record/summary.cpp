@@ -31,6 +31,12 @@ Json event_json(const std::optional<Event>& event, int dimension) {
             {"position", position_json(event->position, dimension)}};
 }
 
+/// The peak of a load has a time, but no place.
+Json without_place(Json event) {
+    if (!event.is_null()) event["position"] = nullptr;
+    return event;
+}
+
 /// JSON has no word for a number that is not finite; it is written as null.
 double number(const Json& json) {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
@@ -39,6 +45,7 @@ double number(const Json& json) {
 std::optional<Event> event_from_json(const Json& json) {
     if (json.is_null()) return std::nullopt;
     Event event{number(json.at("time")), number(json.at("load")), number(json.at("displacement"))};
+    if (json.at("position").is_null()) return event;
     const auto position = json.at("position").get<std::vector<double>>();
     for (std::size_t a = 0; a < std::min<std::size_t>(3, position.size()); ++a)
         event.position[static_cast<int>(a)] = position[a];
@@ -66,7 +73,7 @@ Json to_json(const RunSummary& s) {
             {"end_time", s.end_time},
             {"events",
              {{"first_break", event_json(s.events.first_break, s.dimension)},
-              {"peak_load", event_json(s.events.peak_load, s.dimension)},
+              {"peak_load", without_place(event_json(s.events.peak_load, s.dimension))},
               {"separation", event_json(s.events.separation, s.dimension)},
               {"end", s.events.end}}},
             {"energy",

@@ -1,6 +1,35 @@
 #include "scene/read_shape.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace hibi {
+
+namespace {
+
+/// Two sides that cross each other, by the number of their first corner. Every pair is looked at, so very
+/// long outlines, which are drawn by programs, are taken as they are.
+std::optional<std::pair<int, int>> sides_that_cross(const std::vector<Vec<2>>& corners) {
+    constexpr int most = 2000;
+    const int n = static_cast<int>(corners.size());
+    if (n > most) return {};
+    const auto side = [](const Vec<2>& a, const Vec<2>& b, const Vec<2>& p) {
+        return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = i + 2; j < n; ++j) {
+            if (i == 0 && j == n - 1) continue;  // they share a corner
+            const Vec<2>&a = corners[i], &b = corners[(i + 1) % n], &c = corners[j],
+                  &d = corners[(j + 1) % n];
+            if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0)
+                return std::pair{i, j};
+        }
+    }
+    return {};
+}
+
+}  // namespace
 
 std::optional<Shape<2>> read_shape(BlockReader& block, const std::string& key) {
     if (key == "box") {
@@ -45,6 +74,11 @@ std::optional<Shape<2>> read_shape(BlockReader& block, const std::string& key) {
             block.fail(key, "polygon needs three corners or more");
             return {};
         }
+        if (const auto crossing = sides_that_cross(*corners))
+            block.fail(
+                key,
+                fmt::format("polygon: its sides {} and {} cross; give the corners in order round the shape",
+                            crossing->first + 1, crossing->second + 1));
         return Shape<2>{Polygon{*corners}};
     }
     Difference<2> difference;

@@ -87,9 +87,9 @@ TEST(FilmPlan, LabelsStandForAWhileAndFade) {
     ASSERT_TRUE(plan.label(frame));
     EXPECT_EQ(plan.label(frame)->text, "First break");
     EXPECT_EQ(plan.label(frame)->strength, 1);
-    ASSERT_TRUE(plan.label(frame + 36));  // 1.44 s later: inside the last 0.4 of 1.6 s
-    EXPECT_LT(plan.label(frame + 36)->strength, 0.6);
-    EXPECT_FALSE(plan.label(frame + 42));
+    ASSERT_TRUE(plan.label(frame + 20));  // 0.8 s later: inside the last 0.3 of 0.96 s
+    EXPECT_LT(plan.label(frame + 20)->strength, 0.6);
+    EXPECT_FALSE(plan.label(frame + 25));
 }
 
 TEST(FilmPlan, AFlashLastsSixTenthsOfASecondOfPlayback) {

@@ -137,10 +137,11 @@ TEST_F(Film, TheSceneAndStrangersFilesAreNeverOverwritten) {
     EXPECT_EQ(answer.status, 1) << answer.out;
     EXPECT_EQ(text_of(folder / "scene.toml"), before);
     fs::remove(folder / "scene.toml");
-    std::ofstream(folder / "poster.png") << "mine";
+    std::ofstream(folder / "notes.txt") << "mine";
     answer = hibi("run " + scene_.string() + " -q -o " + folder.string());
     EXPECT_EQ(answer.status, 1) << answer.out;
-    EXPECT_EQ(text_of(folder / "poster.png"), "mine");
+    EXPECT_EQ(text_of(folder / "notes.txt"), "mine");
+    EXPECT_FALSE(fs::exists(folder / "run.json"));
 }
 
 TEST_F(Film, ARunThatWasKilledIsDrawnFromWhatItLeft) {

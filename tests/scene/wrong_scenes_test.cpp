@@ -101,6 +101,12 @@ INSTANTIATE_TEST_SUITE_P(
               "s.toml:15:1: error: [[body]]: body \"body2\" holds no particle\n"
               "   15 | [[body]]\n"
               "      | ^^^^^^^^ its shape is 0.1 m x 0.1 m, the spacing 1 m"},
+        Wrong{"PolygonThatCrossesItself", "[[fix]]",
+              "[[body]]\nmaterial = \"concrete\"\nspacing = \"1 m\"\n"
+              "polygon = [[\"50 m\", \"0 m\"], [\"60 m\", \"9 m\"], [\"60 m\", \"0 m\"], [\"50 m\", \"9 m\"]]\n[[fix]]",
+              "s.toml:18:11: error: polygon: its sides 1 and 3 cross; give the corners in order round the shape\n"
+              "   18 | polygon = [[\"50 m\", \"0 m\"], [\"60 m\", \"9 m\"], [\"60 m\", \"0 m\"], [\"50 m\", \"9 m\"]]\n"
+              "      |           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^"},
         Wrong{"OverlappingBodies", "[[fix]]",
               "[[body]]\nmaterial = \"concrete\"\nspacing = \"1 m\"\nbox = [[\"39.9 m\", \"0 m\"], [\"41.9 "
               "m\", \"1 m\"]]\n[[fix]]",
