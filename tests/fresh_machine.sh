@@ -35,6 +35,7 @@ touch "$marker"
 debootstrap --variant=minbase --include=git bookworm "$tree" "$mirror" >"$tree.log" 2>&1 ||
     fail "debootstrap failed, see $tree.log"
 cp /etc/resolv.conf "$tree/etc/resolv.conf"
+echo '127.0.0.1 localhost' >"$tree/etc/hosts" # what an installed machine has, and debootstrap leaves out
 # The way out of this machine, where there is a proxy.
 apt-config dump | grep -i '::proxy' >"$tree/etc/apt/apt.conf.d/proxy" || true
 
