@@ -13,7 +13,6 @@ Connection::Connection(const std::vector<int>& from, const std::vector<int>& to,
     for (const int i : from) from_[i] = 1;
     for (const int i : to) to_[i] = 1;
     existed_ = search(bonds);
-    lost_ = !existed_;
 }
 
 bool Connection::holds(const Bonds& bonds, std::span<const int> just_broken) {

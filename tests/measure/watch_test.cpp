@@ -47,7 +47,7 @@ TEST(Connection, AgreesWithUnionFindAfterEveryBreak) {
 }
 
 /// A bar held on the left and pulled apart by moving its right end.
-Simulation<2> bar(double break_strain, double velocity) {
+Simulation<2> bar(double break_strain, double velocity, double ramp = 0.2) {
     Material m = test::concrete();
     m.break_strain = break_strain;
     Model<2> model = plate(12, 3, 1, m);
@@ -59,7 +59,7 @@ Simulation<2> bar(double break_strain, double velocity) {
     grip.particles = where(model, [](const Vec<2>& X) { return X.x() > 11; });
     grip.driven = {true, false, false};
     grip.value = {Field(velocity), Field(0), Field(0)};
-    grip.ramp = {0.2};
+    grip.ramp = {ramp};
     physics.loads = {grip};
     physics.damping = Damping{.ratio = 0.1};
     return {model, physics};
@@ -136,21 +136,22 @@ TEST(Watch, WhatIsLoadedDoesNotCountAsHeld) {
 
 TEST(Watch, AnElasticWaveIsNoPeak) {
     // Pulled at once: the reaction swings long before anything breaks.
-    Simulation<2> simulation = bar(0.2, 2);
+    Simulation<2> simulation = bar(0.2, 4, 0);
     Watch<2> watch(simulation);
-    double largest = 0, least_after = 1e300;
+    double largest = 0;
+    bool fell = false;
     while (!watch.events().first_break && simulation.time() < 5) {
         simulation.step();
         watch.look();
         const double load = simulation.read(0).load;
-        if (load > largest) {
-            largest = load;
-            least_after = load;
+        largest = std::max(largest, load);
+        fell |= load <= 0.8 * largest;
+        if (!watch.events().first_break) {
+            ASSERT_FALSE(watch.peak_confirmed()) << simulation.time();
         }
-        least_after = std::min(least_after, load);
-        ASSERT_FALSE(watch.peak_confirmed()) << simulation.time();
     }
-    ASSERT_TRUE(watch.events().first_break);
+    EXPECT_TRUE(fell);
+    EXPECT_TRUE(watch.events().first_break);
 }
 
 TEST(Watch, AnEventThatDidNotHappenHasNoTime) {
