@@ -30,6 +30,7 @@ void main() {
     // Longer bonds cross the same face beside its middle: the longer, the slighter their mark.
     float reached = state.y / spacing;
     float rank = 1.0 - 0.6 * smoothstep(1.1, 1.4, reached) - 0.2 * smoothstep(1.5, 1.9, reached);
+    rank = mix(rank, max(rank, 0.6), state.x);  // but a fresh break is news, whatever its length
     float width = clamp(0.16 * spacing, max(1.4 * unit, 1.0), max(5.0 * unit, 1.4));
     width *= rank * (1.0 + 0.5 * state.x);
     half_width = 0.5 * max(width, 1.0);
