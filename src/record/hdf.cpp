@@ -23,6 +23,7 @@ std::string last_error() {
         return 0;
     };
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first, &reason);
+    H5Eclear2(H5E_DEFAULT);  // or it is lost with the thread
     return reason;
 }
 
