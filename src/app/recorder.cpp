@@ -24,8 +24,8 @@ std::vector<std::int64_t> EvenStates::keep(double time, std::int64_t step) {
     std::vector<std::int64_t> kept, dropped;
     for (std::size_t k = 0; k < kept_.size(); ++k) (k % 2 == 0 ? kept : dropped).push_back(kept_[k]);
     kept_ = std::move(kept);
-    next_ +=
-        interval_;  // most is even, so the newest stayed: the next is due twice the old interval after it
+    // most is even, so the newest stayed: the next is due twice the old interval after it
+    next_ += interval_;
     interval_ *= 2;
     return dropped;
 }

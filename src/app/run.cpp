@@ -124,6 +124,17 @@ std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary)
     return list;
 }
 
+/// Draws, and notes in the summary how many frames and how long.
+void draw_with_progress(const Scene& scene, const fs::path& folder, DrawOptions options, bool quiet,
+                        RunSummary& summary) {
+    Progress progress("drawing", "frames", quiet);
+    options.progress = [&](int done, int of) { progress.at(static_cast<double>(done) / of, done); };
+    const DrawResult drawn = draw_run(scene, folder, options);
+    summary.frames = drawn.frames;
+    summary.seconds["draw"] = drawn.draw_seconds;
+    summary.seconds["encode"] = drawn.encode_seconds;
+}
+
 std::string event_line(const char* name, const std::optional<Event>& event, bool loaded, bool with_place) {
     if (!event) return fmt::format("{:<16} -\n", name);
     std::string line = fmt::format("{:<16} t = {:<10}", name, format_si(event->time, "s", 4));
@@ -220,13 +231,7 @@ int run_command(const RunOptions& options) {
     }
 
     if (options.movie) {
-        DrawOptions draw = options.draw;
-        Progress progress("drawing", "frames", options.quiet);
-        draw.progress = [&](int done, int of) { progress.at(static_cast<double>(done) / of, done); };
-        const DrawResult drawn = draw_run(scene, folder, draw);
-        summary.frames = drawn.frames;
-        summary.seconds["draw"] = drawn.draw_seconds;
-        summary.seconds["encode"] = drawn.encode_seconds;
+        draw_with_progress(scene, folder, options.draw, options.quiet, summary);
         summary.seconds["total"] = total.seconds();
         write_summary(folder, summary);
     }
@@ -244,22 +249,10 @@ int run_command(const RunOptions& options) {
 int render_command(const fs::path& folder, const std::optional<fs::path>& scene_file,
                    const DrawOptions& options, bool quiet) {
     const Scene scene = read_scene(scene_file.value_or(folder / "scene.toml"));
-    DrawOptions draw = options;
-    DrawResult drawn;
-    {
-        Progress progress("drawing", "frames", quiet);
-        draw.progress = [&](int done, int of) { progress.at(static_cast<double>(done) / of, done); };
-        drawn = draw_run(scene, folder, draw);
-    }
-    if (!fs::exists(folder / "run.json")) {
-        fmt::print("{}\n", (folder / (options.movie ? "movie.mp4" : "frames")).string());
-        return 0;
-    }
-    RunSummary summary = read_summary(folder);
-    summary.frames = drawn.frames;
-    summary.seconds["draw"] = drawn.draw_seconds;
-    summary.seconds["encode"] = drawn.encode_seconds;
-    write_summary(folder, summary);
+    const bool summarised = fs::exists(folder / "run.json");  // a killed run may lack it
+    RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
+    draw_with_progress(scene, folder, options, quiet, summary);
+    if (summarised) write_summary(folder, summary);
     fmt::print("{}\n", (folder / (options.movie ? "movie.mp4" : "frames")).string());
     return 0;
 }

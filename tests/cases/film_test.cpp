@@ -44,15 +44,24 @@ Answer hibi(const std::string& arguments, const std::string& environment = {}) {
     return call(environment + " " HIBI_PROGRAM " " + arguments);
 }
 
+using Edits = std::vector<std::pair<std::string, std::string>>;  ///< regular expression, replacement
+
+/// A copy of a scene, each expression replaced; it must be there.
+fs::path edited(const fs::path& scene, const fs::path& copy, const Edits& edits) {
+    std::string text = text_of(scene);
+    for (const auto& [from, to] : edits) {
+        EXPECT_TRUE(std::regex_search(text, std::regex(from))) << from;
+        text = std::regex_replace(text, std::regex(from), to);
+    }
+    std::ofstream(copy) << text;
+    return copy;
+}
+
 /// The fine cantilever with 20 x 10 particles and a small, short film.
 fs::path small_scene(const fs::path& folder) {
-    std::string text = text_of(fs::path(HIBI_SOURCE_DIR) / "scenes/bending_fine.toml");
-    text = std::regex_replace(text, std::regex("spacing = \"1 m\""), "spacing = \"2 m\"");
-    text = std::regex_replace(text, std::regex("\\[view\\]"),
-                              "[movie]\nduration = \"2 s\"\n\n[view]\nsize = [320, 180]");
-    const fs::path file = folder / "small.toml";
-    std::ofstream(file) << text;
-    return file;
+    return edited(fs::path(HIBI_SOURCE_DIR) / "scenes/bending_fine.toml", folder / "small.toml",
+                  {{"spacing = \"1 m\"", "spacing = \"2 m\""},
+                   {"\\[view\\]", "[movie]\nduration = \"2 s\"\n\n[view]\nsize = [320, 180]"}});
 }
 
 /// Hashes of all frames and of all states of a run.
@@ -109,13 +118,11 @@ TEST_F(Film, SameBitsAgainWithOtherThreadsVectorsAndBackEnd) {
 
 TEST_F(Film, SameStatesOfALargerPlateForOneTwoAndThreeThreads) {
     // 5000 particles, more than are left to one thread; weak, so that bonds break in the first steps.
-    std::string text = text_of(scene_);
-    text = std::regex_replace(text, std::regex("break_strain   = 0.1"), "break_strain = 1e-5");
-    text = std::regex_replace(text, std::regex("until    = \"separation . 0.5 s\"\n"), "");
-    text = std::regex_replace(text, std::regex("max_time = \"60 s\""), "max_time = \"0.06 s\"");
-    text = std::regex_replace(text, std::regex("\nratio = 0.3"), "\nrate = 2");
-    const fs::path scene = folder_ / "larger.toml";
-    std::ofstream(scene) << text;
+    const fs::path scene = edited(scene_, folder_ / "larger.toml",
+                                  {{"break_strain   = 0.1", "break_strain = 1e-5"},
+                                   {"until    = \"separation . 0.5 s\"\n", ""},
+                                   {"max_time = \"60 s\"", "max_time = \"0.06 s\""},
+                                   {"\nratio = 0.3", "\nrate = 2"}});
     std::set<std::string> prints;
     for (const char* threads : {"1", "2", "3"}) {
         const fs::path other = folder_ / "larger";
@@ -158,10 +165,10 @@ TEST_F(Film, ARunThatWasKilledIsDrawnFromWhatItLeft) {
 }
 
 TEST_F(Film, SeparationOfWhatNeverHeldTogetherIsAnErrorBeforeTheRun) {
-    std::string text = text_of(scene_) + "\n[[notch]]\nline = [[\"20 m\", \"-1 m\"], [\"20 m\", \"21 m\"]]\n";
-    text = std::regex_replace(text, std::regex("\nratio = 0.3"), "\nrate = 2");
-    const fs::path scene = folder_ / "apart.toml";
-    std::ofstream(scene) << text;
+    const fs::path scene = edited(
+        scene_, folder_ / "apart.toml",
+        {{"\nratio = 0.3", "\nrate = 2"},
+         {"\\[damping\\]", "[[notch]]\nline = [[\"20 m\", \"-1 m\"], [\"20 m\", \"21 m\"]]\n\n[damping]"}});
     const Answer answer = hibi("run " + scene.string() + " -q -o " + (folder_ / "apart").string());
     EXPECT_EQ(answer.status, 2) << answer.out;
     EXPECT_NE(answer.out.find("separation cannot happen"), std::string::npos) << answer.out;
@@ -266,10 +273,8 @@ TEST_F(Film, AnotherScenesRunIsNotOverwritten) {
 
 TEST_F(Film, AnEventThatIsNotReachedIsAWarningAndNull) {
     const fs::path folder = folder_ / "short";
-    std::string text = text_of(scene_);
-    text = std::regex_replace(text, std::regex("max_time = \"60 s\""), "max_time = \"2 s\"");
-    const fs::path scene = folder_ / "short.toml";
-    std::ofstream(scene) << text;
+    const fs::path scene =
+        edited(scene_, folder_ / "short.toml", {{"max_time = \"60 s\"", "max_time = \"2 s\""}});
     const Answer answer = hibi("run " + scene.string() + " --no-movie -q -o " + folder.string());
     EXPECT_EQ(answer.status, 0) << answer.out;
     EXPECT_NE(answer.out.find("separation was not reached"), std::string::npos) << answer.out;
@@ -281,13 +286,11 @@ TEST_F(Film, AnEventThatIsNotReachedIsAWarningAndNull) {
 
 TEST_F(Film, ARunThatBlowsUpKeepsWhatItRecordedAndSaysWhy) {
     const fs::path folder = folder_ / "wild";
-    std::string text = text_of(scene_);
-    text = std::regex_replace(text, std::regex("-80 MN"), "-80 MN * (t / 1 s)^160");
-    text = std::regex_replace(text, std::regex("break_strain   = 0.1"), "");
-    text = std::regex_replace(text, std::regex("until    = \"separation . 0.5 s\"\n"), "");
-    text = std::regex_replace(text, std::regex("until = \"separation\"\n"), "");
-    const fs::path scene = folder_ / "wild.toml";
-    std::ofstream(scene) << text;
+    const fs::path scene = edited(scene_, folder_ / "wild.toml",
+                                  {{"-80 MN", "-80 MN * (t / 1 s)^160"},
+                                   {"break_strain   = 0.1", ""},
+                                   {"until    = \"separation . 0.5 s\"\n", ""},
+                                   {"until = \"separation\"\n", ""}});
     const Answer answer = hibi("run " + scene.string() + " -q -o " + folder.string());
     EXPECT_EQ(answer.status, 1);
     EXPECT_TRUE(std::regex_search(answer.out, std::regex("step [0-9]+, t = .* s: .*; .*stretched")))

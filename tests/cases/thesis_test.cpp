@@ -48,7 +48,7 @@ Outcome run(const Scene& scene) {
             simulation.read(0)};
 }
 
-TEST(Thesis32, FinePlateBreaksAtTheClampUnder353e5NewtonPerCentimetre) {
+TEST(Thesis32, FinePlateBreaksInTheTopRowBesideTheClampAt35MN) {
     const Outcome o = run(read_scene(std::string(HIBI_SOURCE_DIR) + "/scenes/bending_fine.toml"));
     ASSERT_TRUE(o.events.first_break && o.events.separation);
     EXPECT_NEAR(o.events.first_break->load / 3.53e7, 1, 0.02);

@@ -150,6 +150,20 @@ TEST(Simulation, FreeFallIsExactAndItsBalanceToo) {
     EXPECT_NEAR(e.kinetic / e.work, 1, 1e-10);
 }
 
+TEST(Simulation, ABodyOfOneParticleFallsLikeAnyOther) {
+    Physics physics;
+    physics.gravity = Gravity{{0, -9.80665, 0}};
+    for (const Elasticity elasticity : {Elasticity::moment_matched, Elasticity::thesis}) {
+        physics.elasticity = elasticity;
+        Simulation<2> simulation(plate(1, 1, 1), physics);
+        ASSERT_EQ(simulation.model().bonds.count(), 0);
+        while (simulation.time() < 1) simulation.step();
+        const double t = simulation.time();
+        EXPECT_LT(t, 1.1);
+        EXPECT_NEAR(simulation.model().particles.displacement[0].y(), -9.80665 * t * t / 2, 1e-9);
+    }
+}
+
 TEST(Simulation, MassProportionalDampingDecaysAFreeBodyExponentially) {
     Model<2> model = plate(6, 4, 0.5);
     for (Vec<2>& v : model.particles.velocity) v = {3, 0};
