@@ -190,14 +190,14 @@ void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& 
 
 }  // namespace
 
-int check_command(const std::filesystem::path& file, const Overrides& overrides, bool json) {
-    const Scene scene = read_scene(file, overrides);
+int check_command(const CheckOptions& options) {
+    const Scene scene = read_scene(options.scene, options.overrides);
     const Built<2> built = build(scene);
     Simulation<2> simulation(built.model, built.physics);
     require_separable(scene, Watch<2>(simulation));
     const Estimate estimate = estimate_run(scene, built, simulation);
     // The stages are asked of a simulation that has made steps, the values are those of the scene.
-    (json ? print_json : print_report)(scene, built, simulation, estimate);
+    (options.json ? print_json : print_report)(scene, built, simulation, estimate);
     return 0;
 }
 

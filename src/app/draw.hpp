@@ -4,7 +4,7 @@
 
 #include "record/run_folder.hpp"
 #include "render/renderer.hpp"
-#include "scene/scene.hpp"
+#include "scene/read.hpp"
 
 namespace hibi {
 
@@ -28,7 +28,13 @@ struct DrawResult {
 /// (std::runtime_error) name the file; what was finished by then stays.
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options);
 
+struct PreviewOptions {
+    std::filesystem::path scene, png = "setup.png";
+    Overrides overrides{};
+    RendererOptions renderer{};
+};
+
 /// The body as it stands before the run, with supports, loads at full size and notches.
-void draw_setup(const Scene& scene, const std::filesystem::path& png, const DrawOptions& options);
+void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& renderer);
 
 }  // namespace hibi

@@ -11,11 +11,10 @@
 #include "image/layout.hpp"
 #include "image/overlay.hpp"
 #include "image/png.hpp"
-#include "scene/read.hpp"
 
 namespace hibi {
 
-void draw_setup(const Scene& scene, const std::filesystem::path& png, const DrawOptions& options) {
+void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& options) {
     if (png.extension() != ".png" || std::filesystem::is_directory(png))
         throw std::runtime_error(
             fmt::format("{}: is no name of a PNG file; write for example -o setup.png", png.string()));
@@ -26,7 +25,7 @@ void draw_setup(const Scene& scene, const std::filesystem::path& png, const Draw
     const std::vector<Mark> marks =
         find_marks(topology, scene.view.shows("supports"), scene.view.shows("loads"));
     const Overlay overlay(view, {.title = scene.title, .subtitle = describe(scene, topology)});
-    Renderer renderer(view, topology, options.renderer);
+    Renderer renderer(view, topology, options);
 
     Picture2 picture;
     constexpr double far = std::numeric_limits<double>::infinity();

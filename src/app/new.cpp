@@ -74,7 +74,8 @@ std::string title_of(const std::string& text) {
 
 }  // namespace
 
-int new_command(const std::string& name, const std::string& from, bool list) {
+int new_command(const NewOptions& options) {
+    const auto& [name, from, list] = options;
     if (list) {
         for (const auto& [scene, text] : built_in_scenes()) fmt::print("{:<16} {}\n", scene, title_of(text));
         return 0;

@@ -246,14 +246,14 @@ int run_command(const RunOptions& options) {
     return summary.trusted ? 0 : 4;
 }
 
-int render_command(const fs::path& folder, const std::optional<fs::path>& scene_file,
-                   const DrawOptions& options, bool quiet) {
-    const Scene scene = read_scene(scene_file.value_or(folder / "scene.toml"));
+int render_command(const RenderOptions& options) {
+    const fs::path& folder = options.folder;
+    const Scene scene = read_scene(options.scene.value_or(folder / "scene.toml"));
     const bool summarised = fs::exists(folder / "run.json");  // a killed run may lack it
     RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
-    draw_with_progress(scene, folder, options, quiet, summary);
+    draw_with_progress(scene, folder, options.draw, options.quiet, summary);
     if (summarised) write_summary(folder, summary);
-    fmt::print("{}\n", (folder / (options.movie ? "movie.mp4" : "frames")).string());
+    fmt::print("{}\n", (folder / (options.draw.movie ? "movie.mp4" : "frames")).string());
     return 0;
 }
 

@@ -29,8 +29,14 @@ int run_command(const RunOptions& options);
 /// loaded.
 void require_separable(const Scene& scene, const Watch<2>& watch);
 
-/// Pictures and film of a recorded run once more. `scene` absent: as recorded.
-int render_command(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& scene,
-                   const DrawOptions& options, bool quiet);
+struct RenderOptions {
+    std::filesystem::path folder;
+    std::optional<std::filesystem::path> scene{};  ///< of [view] and [movie]; absent: as recorded
+    bool quiet = false;
+    DrawOptions draw{};
+};
+
+/// Pictures and film of a recorded run once more.
+int render_command(const RenderOptions& options);
 
 }  // namespace hibi

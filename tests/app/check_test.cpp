@@ -16,7 +16,7 @@ const std::filesystem::path fine = HIBI_SOURCE_DIR "/scenes/bending_fine.toml";
 
 std::string report(bool json, const Overrides& overrides = {}) {
     testing::internal::CaptureStdout();
-    EXPECT_EQ(check_command(fine, overrides, json), 0);
+    EXPECT_EQ(check_command({fine, overrides, json}), 0);
     std::fflush(stdout);
     return testing::internal::GetCapturedStdout();
 }
@@ -59,14 +59,14 @@ class New : public testing::Test {
 };
 
 TEST_F(New, WritesAStarterThatIsARightScene) {
-    EXPECT_EQ(new_command(folder_ / "first", "", false), 0);
+    EXPECT_EQ(new_command({folder_ / "first", "", false}), 0);
     const Scene scene = read_scene(folder_ / "first.toml");
     EXPECT_EQ(scene.title, "A notched beam, bent until it breaks");
     EXPECT_GT(build(scene).model.bonds_cut, 0);
 }
 
 TEST_F(New, CopiesABuiltInSceneToTheByte) {
-    EXPECT_EQ(new_command(folder_ / "copy.toml", "bending_fine", false), 0);
+    EXPECT_EQ(new_command({folder_ / "copy.toml", "bending_fine", false}), 0);
     const auto read = [](const std::filesystem::path& file) {
         std::ifstream in(file, std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(in), {});
@@ -76,9 +76,9 @@ TEST_F(New, CopiesABuiltInSceneToTheByte) {
 
 TEST_F(New, NeverOverwritesAndKnowsItsScenes) {
     std::ofstream(folder_ / "mine.toml") << "precious";
-    EXPECT_EQ(new_command(folder_ / "mine", "", false), 2);
+    EXPECT_EQ(new_command({folder_ / "mine", "", false}), 2);
     EXPECT_EQ(std::filesystem::file_size(folder_ / "mine.toml"), 8u);
-    EXPECT_EQ(new_command(folder_ / "other", "bending_fien", false), 2);
+    EXPECT_EQ(new_command({folder_ / "other", "bending_fien", false}), 2);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "other.toml"));
     EXPECT_EQ(built_in_scenes().front().first, "bending_coarse");
 }

@@ -1,0 +1,182 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "app/check.hpp"
+#include "app/doctor.hpp"
+#include "app/draw.hpp"
+#include "app/new.hpp"
+#include "app/run.hpp"
+#include "base/parallel.hpp"
+#include "scene/read.hpp"
+
+namespace hibi {
+
+namespace {
+
+constexpr const char* examples = R"(
+Examples:
+  hibi run scenes/bending_fine.toml            simulate, draw, encode: out/bending_fine/movie.mp4
+  hibi run scene.toml -p spacing=0.5m -o out/fine
+  hibi check scene.toml                        what would be modelled, and how long it would take
+  hibi preview scene.toml -o setup.png         supports, loads and notches in one picture
+  hibi render out/bending_fine                 draw again from the recorded states
+  hibi new my_scene.toml                       a commented scene to start from
+
+Exit status: 0 done, 1 it failed, 2 the input is wrong, 4 done, but the energy balance is off by more than 2 %.
+)";
+
+using Command = CLI::App;
+/// The values that a command's options are put into: they live as long as the command itself.
+template <class Options>
+std::shared_ptr<Options> options_of() {
+    return std::make_shared<Options>();
+}
+
+/// -p name=value, with spaces around the = allowed.
+Overrides overrides_from(const std::vector<std::string>& texts) {
+    Overrides overrides;
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw CLI::ValidationError("-p", fmt::format("\"{}\" is not of the form name=value", text));
+        overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    return overrides;
+}
+
+void add_scene(Command& command, std::filesystem::path& scene, Overrides& overrides) {
+    command.add_option("SCENE", scene, "scene file (TOML)")->required();
+    command
+        .add_option_function<std::vector<std::string>>(
+            "-p,--param",
+            [&overrides](const std::vector<std::string>& texts) { overrides = overrides_from(texts); },
+            "override a value of [params], name=value; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("TEXT");
+}
+
+void add_drawing(Command& command, RendererOptions& renderer) {
+    command
+        .add_option_function<std::string>(
+            "--gl",
+            [&renderer](const std::string& name) {
+                renderer.backend = name == "egl" ? GlBackend::egl : GlBackend::osmesa;
+            },
+            "OpenGL by osmesa (default) or egl; both give the same pixels")
+        ->check(CLI::IsMember({"osmesa", "egl"}))
+        ->type_name("TEXT");
+    command.add_option("--shaders", renderer.shaders, "read the shaders from this folder");
+}
+
+void add_threads(Command& command) {
+    command
+        .add_option_function<int>("--threads", set_threads,
+                                  "threads of the solver (default: all cores); the bits stay the same")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("INT");
+}
+
+void add_quiet(Command& command, bool& quiet) { command.add_flag("-q,--quiet", quiet, "no progress"); }
+
+void add_run(CLI::App& app, int& status) {
+    Command* run = app.add_subcommand("run", "Simulate a scene, draw it and encode the film");
+    const auto o = options_of<RunOptions>();
+    add_scene(*run, o->scene, o->overrides);
+    run->add_option("-o,--output", o->folder, "folder of the run (default: out/<scene name>)");
+    run->add_flag("!--no-movie", o->movie, "simulate and record only");
+    run->add_flag("--force", o->force, "overwrite the folder of another scene's run");
+    run->add_flag("--json", o->json, "print run.json instead of the table");
+    add_drawing(*run, o->draw.renderer);
+    add_threads(*run);
+    add_quiet(*run, o->quiet);
+    run->callback([o, &status] { status = run_command(*o); });
+}
+
+void add_render(CLI::App& app, int& status) {
+    Command* render = app.add_subcommand("render", "Draw a recorded run again, without simulating");
+    const auto o = options_of<RenderOptions>();
+    render->add_option("DIR", o->folder, "folder of the run")->required();
+    render->add_option("--scene", o->scene, "take [view] and [movie] from this scene instead of DIR/scene.toml");
+    render->add_flag("!--no-movie", o->draw.movie, "frames and poster only");
+    add_drawing(*render, o->draw.renderer);
+    add_threads(*render);
+    add_quiet(*render, o->quiet);
+    render->callback([o, &status] { status = render_command(*o); });
+}
+
+void add_check(CLI::App& app, int& status) {
+    Command* check = app.add_subcommand("check", "Read a scene and say what would be modelled; nothing is run");
+    const auto o = options_of<CheckOptions>();
+    add_scene(*check, o->scene, o->overrides);
+    check->add_flag("--json", o->json, "print JSON");
+    check->callback([o, &status] { status = check_command(*o); });
+}
+
+void add_preview(CLI::App& app, int& status) {
+    Command* preview = app.add_subcommand("preview", "Picture of the body with supports, loads and notches");
+    const auto o = options_of<PreviewOptions>();
+    add_scene(*preview, o->scene, o->overrides);
+    preview->add_option("-o,--output", o->png, "PNG to write")->capture_default_str();
+    add_drawing(*preview, o->renderer);
+    preview->callback([o, &status] {
+        draw_setup(read_scene(o->scene, o->overrides), o->png, o->renderer);
+        fmt::print("{}\n", o->png.string());
+        status = 0;
+    });
+}
+
+void add_new(CLI::App& app, int& status) {
+    Command* create = app.add_subcommand("new", "Write a commented scene to start from");
+    const auto o = options_of<NewOptions>();
+    create->add_option("NAME", o->name, "file to write (default: my_scene.toml)");
+    create->add_option("--from", o->from, "start from this built-in scene");
+    create->add_flag("--list", o->list, "list the built-in scenes");
+    create->callback([o, &status] { status = new_command(*o); });
+}
+
+void add_doctor(CLI::App& app, int& status) {
+    Command* doctor = app.add_subcommand("doctor", "What works on this machine, and what to install");
+    const auto json = options_of<bool>();
+    doctor->add_flag("--json", *json, "print JSON");
+    doctor->callback([json, &status] { status = doctor_command(*json); });
+}
+
+}  // namespace
+
+std::shared_ptr<CLI::App> make_command_line(int& status) {
+    auto app = std::make_shared<CLI::App>("hibi turns one text file into a fracture film.", "hibi");
+    app->footer(examples);
+    app->require_subcommand(1);
+    app->set_version_flag("--version", "hibi " HIBI_VERSION);
+    app->set_help_all_flag("--help-all", "Help of every command");
+    for (const auto add : {add_run, add_render, add_check, add_preview, add_new, add_doctor})
+        add(*app, status);
+    for (CLI::App* command : app->get_subcommands({}))
+        command->footer("");  // the examples stand in hibi --help
+    return app;
+}
+
+int run_command_line(int argc, char** argv) {
+    int status = 2;
+    const std::shared_ptr<CLI::App> app = make_command_line(status);
+    std::vector<std::string> words;
+    for (const CLI::App* command : app->get_subcommands({})) words.push_back(command->get_name());
+    if (argc > 1 && argv[1][0] != '-' && std::ranges::find(words, argv[1]) == words.end()) {
+        fmt::print(stderr, "hibi: error: unknown command \"{}\"; known: {}\n", argv[1], fmt::join(words, ", "));
+        return 2;
+    }
+    try {
+        app->parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app->exit(error) == 0 ? 0 : 2;
+    }
+    return status;
+}
+
+}  // namespace hibi
