@@ -5,8 +5,10 @@ uniform vec2 picture;
 uniform float guard;
 uniform float unit;                  // pixels in this picture per pixel in one 1080 high
 uniform isamplerBuffer bonds;        // the two particles of each
-uniform samplerBuffer states;        // freshness 1..0, rest length (pixels)
+uniform samplerBuffer states;        // freshness 1..0, rest length (pixels), place in the map
 uniform samplerBuffer particles;     // centre, half the spacing (pixels), place in the colour map 0..1
+uniform sampler2D colours;
+uniform bool by_time;                // coloured by the map, or by freshness
 uniform vec3 fresh_colour, old_colour;
 
 flat out vec4 axis;                  // middle and half the straight part of the capsule, as a vector (pixels)
@@ -22,7 +24,7 @@ vec2 corner() {
 
 void main() {
     ivec2 ends = texelFetch(bonds, gl_VertexID / 6).xy;
-    vec2 state = texelFetch(states, gl_VertexID / 6).xy;
+    vec4 state = texelFetch(states, gl_VertexID / 6);
     vec4 a = texelFetch(particles, ends.x), b = texelFetch(particles, ends.y);
     vec2 bond = b.xy - a.xy;
     float spacing = a.z + b.z, stretched = length(bond);
@@ -46,5 +48,6 @@ void main() {
     vec2 place = middle + along * corner.x * (half_length + reach) + normal * corner.y * reach;
     gl_Position = vec4((place + guard) / (picture + 2.0 * guard) * 2.0 - 1.0, 0.0, 1.0);
     axis = vec4(middle, along * half_length);
-    colour = vec4(mix(old_colour, fresh_colour, state.x), strength);
+    ivec2 entry = ivec2(int(clamp(state.z, 0.0, 1.0) * 255.0 + 0.5), 0);
+    colour = vec4(by_time ? texelFetch(colours, entry, 0).rgb : mix(old_colour, fresh_colour, state.x), strength);
 }

@@ -6,6 +6,8 @@ uniform float guard;       // how far the viewport reaches beyond the picture (p
 uniform bool squares;      // two triangles per particle instead of a point sprite
 uniform samplerBuffer particles;  // centre, half the spacing (pixels), place in the colour map 0..1
 uniform sampler2D colours;
+uniform bool coloured;     // by the map, or all in one colour
+uniform vec3 plain;
 
 flat out vec3 disc;        // centre, radius (pixels)
 flat out vec3 colour;
@@ -25,5 +27,6 @@ void main() {
     gl_Position = vec4((place + guard) / (picture + 2.0 * guard) * 2.0 - 1.0, 0.0, 1.0);
     gl_PointSize = 2.0 * reach;
     disc = vec3(particle.xy, radius);
-    colour = texelFetch(colours, ivec2(int(clamp(particle.w, 0.0, 1.0) * 255.0 + 0.5), 0), 0).rgb;
+    ivec2 entry = ivec2(int(clamp(particle.w, 0.0, 1.0) * 255.0 + 0.5), 0);
+    colour = coloured ? texelFetch(colours, entry, 0).rgb : plain;
 }

@@ -7,6 +7,8 @@ uniform float guard;
 uniform isamplerBuffer bonds;        // the two particles of each
 uniform samplerBuffer particles;     // centre, half the spacing (pixels), place in the colour map 0..1
 uniform sampler2D colours;
+uniform bool coloured;               // by the map, or all in one colour
+uniform vec3 plain;
 
 out float along;                     // 0 at the first particle .. 1 at the second
 out float across;                    // from the bond (pixels)
@@ -20,6 +22,7 @@ vec2 corner() {
 }
 
 vec3 colour_of(float value) {
+    if (!coloured) return plain;
     return texelFetch(colours, ivec2(int(clamp(value, 0.0, 1.0) * 255.0 + 0.5), 0), 0).rgb;
 }
 

@@ -11,6 +11,7 @@
 #include "app/doctor.hpp"
 #include "app/draw.hpp"
 #include "app/new.hpp"
+#include "app/reproduce.hpp"
 #include "app/run.hpp"
 #include "base/parallel.hpp"
 #include "scene/read.hpp"
@@ -26,6 +27,7 @@ Examples:
   hibi check scene.toml                        what would be modelled, and how long it would take
   hibi preview scene.toml -o setup.png         supports, loads and notches in one picture
   hibi render out/bending_fine                 draw again from the recorded states
+  hibi reproduce figure.png                    the command that made it
   hibi new my_scene.toml                       a commented scene to start from
 
 Exit status: 0 done, 1 it failed, 2 the input is wrong, 4 done, but the energy balance is off by more than 2 %.
@@ -102,7 +104,8 @@ void add_render(CLI::App& app, int& status) {
     Command* render = app.add_subcommand("render", "Draw a recorded run again, without simulating");
     const auto o = options_of<RenderOptions>();
     render->add_option("DIR", o->folder, "folder of the run")->required();
-    render->add_option("--scene", o->scene, "take [view] and [movie] from this scene instead of DIR/scene.toml");
+    render->add_option("--scene", o->scene,
+                       "take [view] and [movie] from this scene instead of DIR/scene.toml");
     render->add_flag("!--no-movie", o->draw.movie, "frames and poster only");
     add_drawing(*render, o->draw.renderer);
     add_threads(*render);
@@ -111,7 +114,8 @@ void add_render(CLI::App& app, int& status) {
 }
 
 void add_check(CLI::App& app, int& status) {
-    Command* check = app.add_subcommand("check", "Read a scene and say what would be modelled; nothing is run");
+    Command* check =
+        app.add_subcommand("check", "Read a scene and say what would be modelled; nothing is run");
     const auto o = options_of<CheckOptions>();
     add_scene(*check, o->scene, o->overrides);
     check->add_flag("--json", o->json, "print JSON");
@@ -140,6 +144,14 @@ void add_new(CLI::App& app, int& status) {
     create->callback([o, &status] { status = new_command(*o); });
 }
 
+void add_reproduce(CLI::App& app, int& status) {
+    Command* reproduce = app.add_subcommand("reproduce", "Print the command that made a file");
+    const auto o = options_of<ReproduceOptions>();
+    reproduce->add_option("FILE", o->file, "picture, film, table, page, or folder of a run")->required();
+    reproduce->add_flag("--json", o->json, "print JSON: title, version, scene hash, parameters, command");
+    reproduce->callback([o, &status] { status = reproduce_command(*o); });
+}
+
 void add_doctor(CLI::App& app, int& status) {
     Command* doctor = app.add_subcommand("doctor", "What works on this machine, and what to install");
     const auto json = options_of<bool>();
@@ -155,7 +167,7 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add : {add_run, add_render, add_check, add_preview, add_new, add_doctor})
+    for (const auto add : {add_run, add_render, add_check, add_preview, add_new, add_reproduce, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help
@@ -168,7 +180,8 @@ int run_command_line(int argc, char** argv) {
     std::vector<std::string> words;
     for (const CLI::App* command : app->get_subcommands({})) words.push_back(command->get_name());
     if (argc > 1 && argv[1][0] != '-' && std::ranges::find(words, argv[1]) == words.end()) {
-        fmt::print(stderr, "hibi: error: unknown command \"{}\"; known: {}\n", argv[1], fmt::join(words, ", "));
+        fmt::print(stderr, "hibi: error: unknown command \"{}\"; known: {}\n", argv[1],
+                   fmt::join(words, ", "));
         return 2;
     }
     try {

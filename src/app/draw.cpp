@@ -9,17 +9,16 @@
 #include "app/run_drawing.hpp"
 #include "image/png.hpp"
 #include "record/leftovers.hpp"
+#include "record/provenance.hpp"
 
 namespace hibi {
 
 namespace {
 
 PngText png_text(const RunReader& run, double time) {
-    PngText text = {{"Title", run.summary().title},
-                    {"Software", "hibi " HIBI_VERSION},
-                    {"Scene hash", run.summary().scene_hash},
-                    {"Time", fmt::format("{:.9g} s", time)}};
-    std::erase_if(text, [](const auto& entry) { return entry.second.empty(); });
+    PngText text = to_texts(provenance_of(run.summary()));
+    text["Software"] = "hibi " HIBI_VERSION;  // also where the run was recorded by another one, or killed
+    text["Time"] = fmt::format("{:.9g} s", time);
     return text;
 }
 
@@ -28,7 +27,7 @@ PngText png_text(const RunReader& run, double time) {
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     const RunReader run(folder);
-    RunDrawing drawing(scene, run, options.renderer);
+    RunDrawing drawing(scene, run, film_style(scene, run), options.renderer);
     const FilmPlan& plan = drawing.plan();
     remove_pictures(folder);
 
@@ -36,10 +35,11 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
     if (options.frames) std::filesystem::create_directories(folder / "frames");
     std::optional<Video> video;
     if (options.movie)
-        video = Video{.width = scene.view.width,
-                      .height = scene.view.height,
-                      .fps = scene.movie.fps,
-                      .metadata = {{"title", scene.title}, {"comment", "hibi " HIBI_VERSION}}};
+        video = Video{
+            .width = scene.view.width,
+            .height = scene.view.height,
+            .fps = scene.movie.fps,
+            .metadata = {{"title", scene.title}, {"comment", to_comment(provenance_of(run.summary()))}}};
     FrameWriter writer(folder, options.frames ? std::max(1, options.workers) : 0, video, scene.view.width,
                        scene.view.height);
     const auto write_poster = [&](const Image& image) {

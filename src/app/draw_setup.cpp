@@ -8,7 +8,6 @@
 #include "app/notch_line.hpp"
 #include "app/picture.hpp"
 #include "app/run_drawing.hpp"
-#include "image/layout.hpp"
 #include "image/overlay.hpp"
 #include "image/png.hpp"
 
@@ -55,7 +54,7 @@ void draw_setup(const Scene& scene, const std::filesystem::path& png, const Rend
     Image image(view.width, view.height);
     renderer.draw(picture, image);
     OverlayFrame over{.pixels_per_metre = picture.camera.scale, .symbols = {}};
-    const double unit = lay_out(view.width, view.height, {}).unit;
+    const double unit = symbol_unit(view);
     for (const Mark& mark : marks) over.symbols.push_back(place_mark(mark, x, y, picture.camera, 1, unit));
     for (const NotchLine& notch : find_notches(topology))
         over.symbols.push_back(place_notch(notch, topology, x, y, picture.camera));

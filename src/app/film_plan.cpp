@@ -7,7 +7,7 @@ namespace hibi {
 
 namespace {
 
-constexpr double label_fading = 0.3, flash_duration = 0.6;  // seconds of playback
+constexpr double label_fading = 0.3;  // seconds of playback
 /// A label names a moment: in a short film it must not outlast what it names.
 constexpr double label_share = 0.08;
 /// The part of a slow span that lies before its event.
@@ -45,13 +45,17 @@ TimeMap time_map(const MovieSpec& movie, const Events& events, double begin, dou
     std::optional<Emphasis> emphasis;
     if (events.first_break)
         emphasis = Emphasis{events.first_break->time, events.separation ? events.separation->time : end};
-    return TimeMap(begin, end, movie.duration, slow, emphasis);
+    return TimeMap(begin, end, movie.duration - movie.hold_seconds(), slow, emphasis);
 }
 
-/// When two thirds of the bonds that break up to separation have done so: the crack is long, its tip still
-/// under strain. Without any break the peak load, or the end of the run.
-int poster_frame(const FilmPlan& plan, const Events& events, std::vector<double> breaks) {
+/// The moment the scene asks for; else when two thirds of the bonds that break up to separation have done so:
+/// the crack is long, its tip still under strain. Without any break the peak load, or the end of the run.
+int poster_frame(const FilmPlan& plan, const MovieSpec& movie, const Events& events,
+                 std::vector<double> breaks) {
     const int last = static_cast<int>(plan.time.size()) - 1;
+    if (movie.poster)
+        if (const std::optional<double> time = events.time_of(*movie.poster))
+            return first_frame(plan.time, *time).value_or(last);
     const double until = events.separation ? events.separation->time : plan.time.back();
     std::erase_if(breaks, [&](double time) { return !(time <= until); });
     if (breaks.empty())
@@ -65,35 +69,38 @@ int poster_frame(const FilmPlan& plan, const Events& events, std::vector<double>
 FilmPlan plan_film(const MovieSpec& movie, const Events& events, const std::vector<double>& broken_at,
                    double begin, double end) {
     FilmPlan plan{
-        .map = time_map(movie, events, begin, end), .time = {}, .event = {}, .events = {}, .poster = 0};
+        .map = time_map(movie, events, begin, end), .duration = movie.duration, .flash = movie.flash};
     const int frames = movie.frames();
     plan.event.resize(frames);
     plan.time.resize(frames);
     for (int k = 0; k < frames; ++k) plan.time[k] = plan.map.simulated(plan.film_time(k));
     plan.time.back() = end;  // to the last bit, so that the last frame is the last state
+    // Rounding must not tell the frames that stand still from one another.
+    for (double& time : plan.time)
+        if (end - time < 1e-12 * (end - begin)) time = end;
     plan.events.resize(frames);
     const auto mark = [&](int frame, EventName name) {
         plan.event[frame] = name;
         plan.events[frame].push_back(name);
     };
     mark(0, EventName::start);
-    mark(frames - 1, EventName::end);
+    mark(*first_frame(plan.time, end), EventName::end);
     for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
         // A load that never fell has no peak worth a label: it is simply the end.
         if (const std::optional<double> time = events.time_of({name, 0});
             time && !(name == EventName::peak_load && *time >= end))
             if (const std::optional<int> frame = first_frame(plan.time, *time)) mark(*frame, name);
-    plan.poster = poster_frame(plan, events, broken_at);
+    plan.poster = poster_frame(plan, movie, events, broken_at);
     return plan;
 }
 
 double FilmPlan::film_time(int frame) const {
     const int last = static_cast<int>(time.size()) - 1;
-    return last > 0 ? map.duration() * frame / last : map.duration();
+    return last > 0 ? duration * frame / last : duration;
 }
 
 std::optional<FilmPlan::Label> FilmPlan::label(int frame) const {
-    const double label_duration = label_share * map.duration();
+    const double label_duration = label_share * duration;
     for (int k = frame; k >= 0; --k) {
         const double age = film_time(frame) - film_time(k);
         if (age >= label_duration) break;
@@ -117,8 +124,8 @@ double FilmPlan::speed(int frame) const {
     return fastest > 0 ? here / fastest : 1;
 }
 
-double FilmPlan::freshness(int frame, double broken_at) const {
-    return std::clamp(1 - (film_time(frame) - map.film(broken_at)) / flash_duration, 0.0, 1.0);
+double FilmPlan::freshness(double film_time, double broken_at) const {
+    return std::clamp(1 - (film_time - map.film(broken_at)) / flash, 0.0, 1.0);
 }
 
 double FilmPlan::smallest_step() const {

@@ -14,8 +14,8 @@ struct NewOptions {
     bool list = false;  ///< print the built-in scenes instead
 };
 
-/// `hibi new`: writes a commented scene to start from. Returns the exit status: 2 where the file exists already or there is no such scene. Throws std::runtime_error
-/// where it cannot be written.
+/// `hibi new`: writes a commented scene to start from. Returns the exit status: 2 where the file exists
+/// already or there is no such scene. Throws std::runtime_error where it cannot be written.
 int new_command(const NewOptions& options);
 
 }  // namespace hibi

@@ -13,6 +13,7 @@
 #include "base/units.hpp"
 #include "measure/watch.hpp"
 #include "record/leftovers.hpp"
+#include "record/provenance.hpp"
 #include "record/summary.hpp"
 
 namespace hibi {
@@ -59,6 +60,14 @@ void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
         fmt::format("{}: holds the run of another scene, {}; choose another folder with -o, or "
                     "overwrite it with --force",
                     folder.string(), other));
+}
+
+/// The command that gives this run again. What does not change a result is left out.
+std::string command_of(const RunOptions& options, const fs::path& folder) {
+    std::vector<std::string> words{"hibi", "run", options.scene.string()};
+    for (const auto& [name, value] : options.overrides) words.insert(words.end(), {"-p", name + "=" + value});
+    words.insert(words.end(), {"-o", folder.string()});
+    return shell_command(words);
 }
 
 /// What the scene ties to a moment: the end of damping, the release of a load.
@@ -190,6 +199,8 @@ int run_command(const RunOptions& options) {
 
     RunSummary summary;
     summary.title = scene.title;
+    summary.parameters = {options.overrides.begin(), options.overrides.end()};
+    summary.command = command_of(options, folder);
     summary.scene_hash = scene_hash(scene);
     summary.scene_file = place(options.scene);
     summary.version = HIBI_VERSION;
@@ -199,7 +210,7 @@ int run_command(const RunOptions& options) {
     summary.time_step = simulation.time_step();
     summary.stopped = "it is still running, or was killed";
     summary.trusted = false;
-    RunWriter writer(folder);
+    RunWriter writer(folder, to_comment(provenance_of(summary)));
     writer.scene(write_scene(scene));
     writer.topology(topology);
     write_summary(folder, summary);

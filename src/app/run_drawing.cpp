@@ -8,7 +8,6 @@
 
 #include "app/whole_run.hpp"
 #include "base/units.hpp"
-#include "image/layout.hpp"
 
 namespace hibi {
 
@@ -54,21 +53,28 @@ std::string describe(const Scene& scene, const Topology& topology) {
     return text;
 }
 
-RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererOptions& options)
+DrawingStyle film_style(const Scene& scene, const RunReader& run) {
+    DrawingStyle style{.view = shown_view(scene),
+                       .title = scene.title,
+                       .plan = plan_film(scene.movie, run.summary().events, run.broken_at(),
+                                         run.states().front().time, run.states().back().time)};
+    style.range =
+        scene.view.range.value_or(colour_range(run, scene.view.field, *style.view.map == "diverging"));
+    return style;
+}
+
+RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
+                       const RendererOptions& options)
     : run_(run),
-      view_(shown_view(scene)),
-      range_(scene.view.range ? *scene.view.range
-                              : colour_range(run, scene.view.field, *view_.map == "diverging")),
+      style_(std::move(style)),
       until_(run.summary().events.separation ? run.summary().events.separation->time
                                              : std::numeric_limits<double>::infinity()),
-      plan_(plan_film(scene.movie, run.summary().events, run.broken_at(), run.states().front().time,
-                      run.states().back().time)),
-      source_(run, view_, range_),
-      overlay_(view_, content(scene)),
-      renderer_(view_, run.topology(), options),
-      marks_(find_marks(run.topology(), view_.shows("supports"), view_.shows("loads"))),
+      source_(run, style_.view, style_.range),
+      overlay_(style_.view, content(scene)),
+      renderer_(style_.view, run.topology(), options),
+      marks_(find_marks(run.topology(), style_.view.shows("supports"), style_.view.shows("loads"))),
       notches_(find_notches(run.topology())),
-      unit_(lay_out(view_.width, view_.height, {}).unit) {
+      unit_(symbol_unit(style_.view)) {
     for (int k = 0; k < static_cast<int>(run.topology().loads.size()); ++k) {
         double largest = 0;
         for (const HistoryRow& row : run.history().rows)
@@ -80,24 +86,36 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, const RendererO
 }
 
 int RunDrawing::draw(int frame, Image& image) {
-    const double time = plan_.time[frame];
-    Picture2 picture = source_.at(time);
-    picture.camera = camera_;
-    for (std::size_t k = 0; k < picture.broken.size(); ++k)
-        picture.freshness[k] =
-            static_cast<float>(plan_.freshness(frame, run_.broken_at()[picture.broken[k]]));
-    renderer_.draw(picture, image);
-
-    OverlayFrame over{.time = time,
-                      .load = at_time(run_.history(), time, [](const HistoryRow& row) { return row.load; }),
-                      .broken = static_cast<int>(picture.broken.size()),
-                      .speed = plan_.speed(frame),
-                      .pixels_per_metre = camera_.scale,
-                      .symbols = {}};
-    if (const std::optional<FilmPlan::Label> label = plan_.label(frame)) {
+    OverlayFrame over{.speed = plan().speed(frame)};
+    if (const std::optional<FilmPlan::Label> label = plan().label(frame)) {
         over.event = label->text;
         over.event_strength = label->strength;
     }
+    return draw(plan().time[frame], plan().film_time(frame), std::move(over), image);
+}
+
+int RunDrawing::draw_at(double time, Image& image) { return draw(time, plan().map.film(time), {}, image); }
+
+int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& image) {
+    Picture2 picture = source_.at(time);
+    picture.camera = camera_;
+    const std::vector<double>& broken_at = run_.broken_at();
+    if (style_.history) {
+        picture.value.clear();
+        const double span = style_.range[1] - style_.range[0];
+        for (const int bond : picture.broken)
+            picture.history.push_back(static_cast<float>((broken_at[bond] - style_.range[0]) / span));
+    } else {
+        for (std::size_t k = 0; k < picture.broken.size(); ++k)
+            picture.freshness[k] =
+                static_cast<float>(plan().freshness(film_time, broken_at[picture.broken[k]]));
+    }
+    renderer_.draw(picture, image);
+
+    over.time = time;
+    over.load = at_time(run_.history(), time, [](const HistoryRow& row) { return row.load; });
+    over.broken = static_cast<int>(picture.broken.size());
+    over.pixels_per_metre = camera_.scale;
     for (const Mark& mark : marks_) {
         const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
         over.symbols.push_back(place_mark(mark, source_.x(), source_.y(), camera_, size, unit_));
@@ -111,7 +129,8 @@ int RunDrawing::draw(int frame, Image& image) {
 /// The window of the user's, or the body in all states that count, with its symbols at some of them.
 Camera2 RunDrawing::camera() {
     const PixelRect plot = overlay_.plot();
-    if (const auto& w = view_.window) return Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], plot);
+    const View& view = style_.view;
+    if (const auto& w = view.window) return Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], plot);
     std::vector<Reserved> reserved;
     const int last = last_counting_state(run_);
     constexpr int samples = 16;
@@ -120,11 +139,11 @@ Camera2 RunDrawing::camera() {
         source_.at(time);
         for (const Mark& mark : marks_) {
             const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
-            for (const Reserved& r : reserve(mark, source_.x(), source_.y(), size, view_))
+            for (const Reserved& r : reserve(mark, source_.x(), source_.y(), size, view))
                 reserved.push_back(r);
         }
     }
-    return camera_for(body_window(run_, view_), reserved, plot);
+    return camera_for(body_window(run_, view), reserved, plot);
 }
 
 double RunDrawing::load_size(int load, double time) const {
@@ -134,14 +153,16 @@ double RunDrawing::load_size(int load, double time) const {
 }
 
 OverlayContent RunDrawing::content(const Scene& scene) const {
-    const FieldLabel field = field_label(view_.field);
+    const FieldLabel field = field_label(style_.view.field);
     OverlayContent c;
-    c.title = scene.title;
+    c.title = style_.title;
     c.subtitle = describe(scene, run_.topology());
-    c.colour_bar = {field.title, field.unit, range_[0], range_[1], *view_.map};
+    c.colour_bar = {field.title, field.unit, style_.range[0], style_.range[1], *style_.view.map};
+    if (style_.history)
+        c.colour_bar.title = std::string("Time of breaking"), c.colour_bar.unit = std::string("s");
     c.has_breaks = std::ranges::any_of(scene.materials, &Material::can_break);
     c.time_end = run_.states().back().time;
-    c.time_resolution = plan_.smallest_step();
+    c.time_resolution = plan().smallest_step();
     if (run_.topology().loads.empty()) return c;
     c.load_title = std::string("Load");  // (g++ 12 warns wrongly of an assigned literal here)
     c.load_unit = std::string("N");

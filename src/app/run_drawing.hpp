@@ -14,28 +14,44 @@
 
 namespace hibi {
 
-/// One recorded run, ready to be drawn frame by frame. What is fixed over the run (window, colours, axes,
+/// How a run is pictured.
+struct DrawingStyle {
+    View view;
+    std::string title;
+    std::array<double, 2> range{0, 1};  ///< of the colours, in the field's SI unit
+    FilmPlan plan;
+    /// Crack history: the unloaded body in one colour, each broken bond coloured by its time of breaking,
+    /// `range` being in seconds.
+    bool history = false;
+};
+/// The style of the scene's own film.
+DrawingStyle film_style(const Scene& scene, const RunReader& run);
+
+/// One recorded run, ready to be drawn at any moment. What is fixed over the run (window, colours, axes,
 /// prefixes) is settled by the constructor. Everything on the thread that made it.
 class RunDrawing {
  public:
-    RunDrawing(const Scene& scene, const RunReader& run, const RendererOptions& options);
+    RunDrawing(const Scene& scene, const RunReader& run, DrawingStyle style, const RendererOptions& options);
 
-    const FilmPlan& plan() const { return plan_; }
+    const FilmPlan& plan() const { return style_.plan; }
     std::string renderer() const { return renderer_.description(); }
     /// The picture of a frame, everything included; cheapest in rising order. Returns how many bonds it shows
     /// as broken.
     int draw(int frame, Image& image);
+    /// The picture of a simulated time (s) as the film shows it, without the label of an event.
+    int draw_at(double time, Image& image);
+    PixelRect plot() const { return overlay_.plot(); }  ///< the part of the picture that holds the body
+    double pixels_per_metre() const { return camera_.scale; }
 
  private:
+    int draw(double time, double film_time, OverlayFrame over, Image& image);
     double load_size(int load, double time) const;
     OverlayContent content(const Scene& scene) const;
     Camera2 camera();
 
     const RunReader& run_;
-    View view_;
-    std::array<double, 2> range_;
+    DrawingStyle style_;
     double until_;  ///< of what counts: separation, or infinity (s)
-    FilmPlan plan_;
     PictureSource source_;
     Overlay overlay_;
     Renderer renderer_;

@@ -43,7 +43,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
     std::array<double, 4> box{far, far, -far, -far};
     const Topology& topology = run.topology();
     for (const Vec3& X : topology.reference_position) include(box, X.x(), X.y());
-    for (int s = 0; s <= last_counting_state(run); ++s) {
+    for (int s = 0; view.magnify != 0 && s <= last_counting_state(run); ++s) {
         if (view.magnify == 1) {
             const RunReader::Extent extent = run.extent(s);
             include(box, extent.low.x(), extent.low.y());

@@ -42,6 +42,8 @@ struct Symbol {
     double size = 1;                        ///< arrow: 0..1 of the full length
     bool pulls = false;                     ///< arrow: its tail touches the particle, else its head does
 };
+/// Lengths of symbols are multiples of this (pixels).
+double symbol_unit(const View& view);
 /// How far a symbol reaches beyond the edge of its particles (pixels), at full size.
 double symbol_reach(Symbol::Kind kind, const View& view);
 

@@ -132,8 +132,12 @@ Rgb colour_of(Symbol::Kind kind, const Theme& theme) {
 
 }  // namespace
 
+double symbol_unit(const View& view) {
+    return lay_out(view.width, view.height, {}).unit * view.stroke;
+}
+
 double symbol_reach(Symbol::Kind kind, const View& view) {
-    const double unit = lay_out(view.width, view.height, {}).unit;
+    const double unit = symbol_unit(view);
     const double room = 3 * unit + 2;
     if (kind == Symbol::Kind::arrow) return arrow_length * unit + room;
     if (kind == Symbol::Kind::notch) return 0;

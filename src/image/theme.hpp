@@ -11,6 +11,7 @@ using Rgb = std::array<float, 3>;  ///< 0..1, sRGB
 struct Theme {
     Rgb background, text, faint_text, line, grid;
     Rgb support, load;           ///< engineering symbols
+    Rgb body;                    ///< particles that no field colours
     Rgb bond;                    ///< intact bonds
     Rgb crack_fresh, crack_old;  ///< a flash when fresh, then a trace
     Rgb curve, curve_second;     ///< same as load, and as a crack: what belongs together has one colour

@@ -18,6 +18,7 @@ struct View {
     std::vector<std::string> show = all_parts();
     std::optional<std::array<double, 4>> window{};  ///< x0, y0, x1, y1 (m); absent: the run up to separation
     std::string bonds = "nearest";                  ///< which intact bonds are drawn: none, nearest, all
+    double stroke = 1;                              ///< thickness of lines and symbols relative to what suits the size
     double magnify = 1;                             ///< displacements are drawn this many times as large
 
     static std::vector<std::string> all_parts() {

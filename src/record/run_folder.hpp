@@ -15,6 +15,8 @@ namespace hibi {
 /// The numbers of run.json; key names are a contract with scripts: add freely, rename never.
 struct RunSummary {
     std::string title, scene_hash, scene_file, version;
+    std::map<std::string, std::string> parameters;  ///< what -p said, as it was written
+    std::string command;                            ///< that made the run, ready for a shell
     int particles = 0, bonds = 0, broken = 0, frames = 0, threads = 0;
     int dimension = 2;  ///< components of a position in run.json
     std::int64_t steps = 0;
@@ -35,7 +37,8 @@ class RunWriter {
  public:
     /// Creates the folder; removes what an earlier run left in it, and nothing else.
     /// Throws std::runtime_error naming the folder where it cannot be written.
-    explicit RunWriter(std::filesystem::path folder);
+    /// `comment` stands behind the units in the tables.
+    explicit RunWriter(std::filesystem::path folder, std::string comment = {});
     ~RunWriter();
     RunWriter(const RunWriter&) = delete;
     RunWriter& operator=(const RunWriter&) = delete;

@@ -60,30 +60,33 @@ Json seconds_json(const std::map<std::string, double>& seconds) {
 }
 
 Json to_json(const RunSummary& s) {
-    return {{"scene", {{"title", s.title}, {"hash", s.scene_hash}, {"file", s.scene_file}}},
-            {"version", s.version},
-            {"counts",
-             {{"particles", s.particles},
-              {"bonds", s.bonds},
-              {"broken", s.broken},
-              {"steps", s.steps},
-              {"frames", s.frames}}},
-            {"dimension", s.dimension},
-            {"time_step", s.time_step},
-            {"end_time", s.end_time},
-            {"events",
-             {{"first_break", event_json(s.events.first_break, s.dimension)},
-              {"peak_load", without_place(event_json(s.events.peak_load, s.dimension))},
-              {"separation", event_json(s.events.separation, s.dimension)},
-              {"end", s.events.end}}},
-            {"energy",
-             {{"worst_imbalance", s.worst_imbalance},
-              {"imbalance_at_first_break", s.imbalance_at_first_break},
-              {"trusted", s.trusted}}},
-            {"seconds", seconds_json(s.seconds)},
-            {"threads", s.threads},
-            {"stopped", or_null(s.stopped)},
-            {"warnings", s.warnings}};
+    return {
+        {"scene",
+         {{"title", s.title}, {"hash", s.scene_hash}, {"file", s.scene_file}, {"parameters", s.parameters}}},
+        {"version", s.version},
+        {"command", s.command},
+        {"counts",
+         {{"particles", s.particles},
+          {"bonds", s.bonds},
+          {"broken", s.broken},
+          {"steps", s.steps},
+          {"frames", s.frames}}},
+        {"dimension", s.dimension},
+        {"time_step", s.time_step},
+        {"end_time", s.end_time},
+        {"events",
+         {{"first_break", event_json(s.events.first_break, s.dimension)},
+          {"peak_load", without_place(event_json(s.events.peak_load, s.dimension))},
+          {"separation", event_json(s.events.separation, s.dimension)},
+          {"end", s.events.end}}},
+        {"energy",
+         {{"worst_imbalance", s.worst_imbalance},
+          {"imbalance_at_first_break", s.imbalance_at_first_break},
+          {"trusted", s.trusted}}},
+        {"seconds", seconds_json(s.seconds)},
+        {"threads", s.threads},
+        {"stopped", or_null(s.stopped)},
+        {"warnings", s.warnings}};
 }
 
 RunSummary from_json(const Json& json) {
@@ -91,6 +94,9 @@ RunSummary from_json(const Json& json) {
     json.at("scene").at("title").get_to(s.title);
     json.at("scene").at("hash").get_to(s.scene_hash);
     json.at("scene").at("file").get_to(s.scene_file);
+    // Runs of earlier versions lack them.
+    s.parameters = json.at("scene").value("parameters", s.parameters);
+    s.command = json.value("command", "");
     json.at("version").get_to(s.version);
     const Json& counts = json.at("counts");
     counts.at("particles").get_to(s.particles);

@@ -27,13 +27,14 @@ std::string quoted(const std::string& name) {
     return text + "\"";
 }
 
-std::string header(const std::vector<Column>& columns) {
+std::string header(const std::vector<Column>& columns, const std::string& comment) {
     std::vector<std::string> units, names;
     for (const Column& c : columns) {
         units.push_back(fmt::format("{} ({})", c.name, c.unit));
         names.push_back(quoted(c.name));
     }
-    return fmt::format("# {}\n{}\n", fmt::join(units, ", "), fmt::join(names, ","));
+    return fmt::format("# {}{}{}\n{}\n", fmt::join(units, ", "), comment.empty() ? "" : "; ", comment,
+                       fmt::join(names, ","));
 }
 
 std::vector<std::string> split(const std::string& line) {
@@ -107,7 +108,8 @@ class Table {
 
 }  // namespace
 
-std::string history_header(const std::vector<std::string>& load_names, int dimension) {
+std::string history_header(const std::vector<std::string>& load_names, int dimension,
+                           const std::string& comment) {
     std::vector<Column> columns = {{"time", "s"},      {"load", "N"},     {"displacement", "m"},
                                    {"kinetic", "J"},   {"elastic", "J"},  {"contact", "J"},
                                    {"damped", "J"},    {"released", "J"}, {"work", "J"},
@@ -118,7 +120,7 @@ std::string history_header(const std::vector<std::string>& load_names, int dimen
         columns.push_back({"load." + name, "N"});
         columns.push_back({"displacement." + name, "m"});
     }
-    return header(columns);
+    return header(columns, comment);
 }
 
 std::string history_line(const HistoryRow& row, int dimension) {
@@ -131,11 +133,11 @@ std::string history_line(const HistoryRow& row, int dimension) {
     return line + "\n";
 }
 
-std::string breaks_header(int dimension) {
+std::string breaks_header(int dimension, const std::string& comment) {
     std::vector<Column> columns = {{"time", "s"}, {"bond", "-"}, {"first", "-"}, {"second", "-"}};
     for (int a = 0; a < dimension; ++a) columns.push_back({axis_names[a], "m"});
     columns.push_back({"strain", "-"});
-    return header(columns);
+    return header(columns, comment);
 }
 
 std::string break_line(const Break& row, int dimension) {

@@ -68,6 +68,7 @@ struct RunWriter::Impl {
     };
 
     std::filesystem::path folder, states;
+    std::string comment;
     Growing history, breaks;
     int dimension = 2;
     Topology topology;
@@ -140,7 +141,8 @@ struct RunWriter::Impl {
     }
 };
 
-RunWriter::RunWriter(std::filesystem::path folder) : impl_(std::make_unique<Impl>()) {
+RunWriter::RunWriter(std::filesystem::path folder, std::string comment) : impl_(std::make_unique<Impl>()) {
+    impl_->comment = std::move(comment);
     impl_->folder = std::move(folder);
     impl_->states = impl_->folder / "states";
     create_folder(impl_->folder);
@@ -170,8 +172,9 @@ void RunWriter::topology(Topology topology) {
 
 void RunWriter::history_header(const std::vector<std::string>& load_names, int dimension) {
     impl_->dimension = dimension;
-    impl_->history.open(impl_->folder / "history.csv", hibi::history_header(load_names, dimension));
-    impl_->breaks.open(impl_->folder / "breaks.csv", breaks_header(dimension));
+    impl_->history.open(impl_->folder / "history.csv",
+                        hibi::history_header(load_names, dimension, impl_->comment));
+    impl_->breaks.open(impl_->folder / "breaks.csv", breaks_header(dimension, impl_->comment));
 }
 
 void RunWriter::row(const HistoryRow& row) {

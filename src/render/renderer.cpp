@@ -40,6 +40,7 @@ struct DrawnBond {
 };
 struct CrackState {
     float freshness, rest_length;
+    float place, unused = 0;  // in the colour map
 };
 
 /// A buffer that shaders read as the texture of one unit.
@@ -55,6 +56,7 @@ struct Renderer::Impl {
     Impl(const View& view, const Topology& body, const RendererOptions& options)
         : width(view.width),
           height(view.height),
+          stroke(view.stroke),
           colours(theme(view.theme)),
           topology(body),
           context(make_context(options.backend)) {
@@ -134,10 +136,12 @@ struct Renderer::Impl {
         program.use();
         program.set("picture", static_cast<float>(width), static_cast<float>(height));
         program.set("guard", guard);
-        program.set("unit", static_cast<float>(height) / 1080);
+        program.set("unit", static_cast<float>(height * stroke / 1080));
         program.set("rim", colours.rim);
         program.set("particles", particle_table.unit);
         program.set("colours", colour_unit);
+        program.set("coloured", coloured);
+        set(program, "plain", colours.body);
     }
     static void set(const Program& program, const char* uniform, const Rgb& c) {
         program.set(uniform, c[0], c[1], c[2]);
@@ -149,7 +153,8 @@ struct Renderer::Impl {
         for (std::size_t i = 0; i < particles.size(); ++i)
             particles[i] = {static_cast<float>(camera.pixel_x(picture.x[i])),
                             static_cast<float>(camera.pixel_y(picture.y[i])),
-                            static_cast<float>(topology.spacing[i] * camera.scale / 2), picture.value[i]};
+                            static_cast<float>(topology.spacing[i] * camera.scale / 2),
+                            picture.value.empty() ? 0 : picture.value[i]};
         upload(particle_table, particles);
     }
 
@@ -177,8 +182,9 @@ struct Renderer::Impl {
         for (const int k : order) {
             const int b = picture.broken[k];
             cracks.push_back({topology.first[b], topology.second[b]});
-            states.push_back(
-                {picture.freshness[k], static_cast<float>(topology.rest_length[b] * picture.camera.scale)});
+            states.push_back({picture.freshness[k],
+                              static_cast<float>(topology.rest_length[b] * picture.camera.scale),
+                              picture.history.empty() ? 0 : picture.history[k]});
         }
         upload(crack_table, cracks);
         upload(state_table, states);
@@ -199,6 +205,7 @@ struct Renderer::Impl {
         gl->Viewport(-beyond, -beyond, width + 2 * beyond, height + 2 * beyond);
 
         upload_particles(picture);
+        coloured = !picture.value.empty();
         const double spacing = largest_spacing * picture.camera.scale;
         if (!picture.intact.empty() && spacing > least_surface_spacing) {
             const int nearest = upload_bonds(picture);
@@ -225,6 +232,7 @@ struct Renderer::Impl {
             start(*crack);
             crack->set("bonds", crack_table.unit);
             crack->set("states", state_table.unit);
+            crack->set("by_time", !picture.history.empty());
             set(*crack, "fresh_colour", colours.crack_fresh);
             set(*crack, "old_colour", colours.crack_old);
             set(*crack, "background", colours.background);
@@ -233,9 +241,11 @@ struct Renderer::Impl {
     }
 
     int width, height;
+    double stroke;
     const Theme& colours;
     Topology topology;
     double largest_spacing = 0;
+    bool coloured = true;
     std::string description;
     std::vector<DrawnParticle> particles;
     std::vector<DrawnBond> bonds, cracks;
@@ -247,7 +257,7 @@ struct Renderer::Impl {
     std::optional<Gl> gl;
     std::optional<Program> particle, surface, bond, crack;
     Table particle_table{0, GL_RGBA32F}, bond_table{1, GL_RG32I}, crack_table{2, GL_RG32I},
-        state_table{3, GL_RG32F};
+        state_table{3, GL_RGBA32F};
     static constexpr int colour_unit = 4;
 };
 
@@ -257,7 +267,9 @@ Renderer::~Renderer() = default;
 
 void Renderer::draw(const Picture2& picture, Image& image) {
     assert(picture.x.size() == impl_->topology.spacing.size() && picture.y.size() == picture.x.size());
-    assert(picture.value.size() == picture.x.size() && picture.freshness.size() == picture.broken.size());
+    assert(picture.value.empty() || picture.value.size() == picture.x.size());
+    assert(picture.freshness.size() == picture.broken.size());
+    assert(picture.history.empty() || picture.history.size() == picture.broken.size());
     if (image.width != impl_->width || image.height != impl_->height)
         image = Image(impl_->width, impl_->height);
     const CurrentContext current(*impl_->context);

@@ -27,10 +27,11 @@ struct RendererOptions {
 struct Picture2 {
     Camera2 camera;
     std::vector<float> x, y;       ///< current positions (m), displacement magnified as the view asks
-    std::vector<float> value;      ///< 0..1 per particle: place in the colour map
+    std::vector<float> value{};    ///< 0..1 per particle: place in the colour map; empty: the theme's body colour
     std::vector<int> intact;       ///< bonds to draw as intact
     std::vector<int> broken;       ///< bonds to draw as crack faces
     std::vector<float> freshness;  ///< per broken bond: 1 just broken .. 0 old trace
+    std::vector<float> history{};  ///< per broken bond: 0..1, place in the colour map; empty: the theme's colours
 };
 
 /// Draws particles, intact and broken bonds on the theme's background. Intact bonds between neighbours also

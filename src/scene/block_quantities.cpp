@@ -178,18 +178,39 @@ std::optional<std::vector<Vec<2>>> BlockReader::points(const std::string& key) {
 
 std::optional<Moment> BlockReader::moment(const std::string& key) {
     const Value* value = find(key, KeyKind::moment);
+    return value ? moment_of(key, *value, path(key)) : std::nullopt;
+}
+
+std::optional<std::vector<Moment>> BlockReader::moments(const std::string& key) {
+    const Value* value = find(key, KeyKind::moments);
     if (!value) return {};
-    if (value->kind == Value::Kind::number || value->kind == Value::Kind::integer) {
-        if (const auto time = number_of(key, *value, path(key), "s")) return Moment{{}, *time};
+    if (value->kind != Value::Kind::array || value->items.empty()) {
+        wrong(key, *value, path(key), "a list of events or times");
+        return {};
+    }
+    std::vector<Moment> moments;
+    for (std::size_t i = 0; i < value->items.size(); ++i) {
+        const std::string sub_path = fmt::format("{}/{}", path(key), i);
+        context_.problems.stands_at(sub_path, value->items[i].place);
+        if (const auto moment = moment_of(key, value->items[i], sub_path)) moments.push_back(*moment);
+    }
+    if (context_.problems.concerns(path(key))) return {};
+    return moments;
+}
+
+std::optional<Moment> BlockReader::moment_of(const std::string& key, const Value& value,
+                                             const std::string& sub_path) {
+    if (value.kind == Value::Kind::number || value.kind == Value::Kind::integer) {
+        if (const auto time = number_of(key, value, sub_path, "s")) return Moment{{}, *time};
         return {};
     }
     const std::string wanted = "an event or a time";
-    if (value->kind != Value::Kind::text) {
-        wrong(key, *value, path(key), wanted);
+    if (value.kind != Value::Kind::text) {
+        wrong(key, value, sub_path, wanted);
         return {};
     }
     // The event is taken off the front; what is left is a time with a sign.
-    const std::string& text = value->text;
+    const std::string& text = value.text;
     const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
     std::size_t end = begin;
     while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
@@ -200,36 +221,36 @@ std::optional<Moment> BlockReader::moment(const std::string& key) {
     const bool is_name = !word.empty() && !std::isdigit(static_cast<unsigned char>(word[0]));
     if (is_name && !moment.event && !context_.names.params.count(word) && !is_reserved_name(word)) {
         if (context_.broken_names.count(word)) {
-            context_.problems.silence(path(key));
+            context_.problems.silence(sub_path);
             return {};
         }
         std::vector<std::string> known{"start", "first_break", "peak_load", "separation", "end"};
         const auto near = nearest(word, known);
-        Place place = value->place;
-        if (value->plain_text) {
+        Place place = value.place;
+        if (value.plain_text) {
             place.column += 1 + static_cast<int>(begin);
             place.length = static_cast<int>(word.size());
         }
         context_.problems.add(
-            path(key), place, fmt::format("{}: unknown event \"{}\"", label(key), word),
+            sub_path, place, fmt::format("{}: unknown event \"{}\"", label(key), word),
             near ? fmt::format("did you mean \"{}\"?", *near) : "events: " + list_of(known));
         return {};
     }
-    Value rest = *value;
+    Value rest = value;
     if (moment.event) {
         const std::size_t sign = std::min(text.find_first_not_of(' ', end), text.size());
         if (sign == text.size()) return moment;
         if (text[sign] != '+' && text[sign] != '-') {
-            wrong(key, *value, path(key), "an event, then perhaps + or - a time");
+            wrong(key, value, sub_path, "an event, then perhaps + or - a time");
             return {};
         }
         // Blanks keep the offsets, and so the places, of what follows.
         rest.text = std::string(end, ' ') + text.substr(end);
     }
-    const auto formula = expression(key, rest, path(key), context_.names);
+    const auto formula = expression(key, rest, sub_path, context_.names);
     if (!formula) return {};
     if (!(formula->dimension() == dimension_of("s")) && !formula->is_bare_number()) {
-        check_dimension(key, *value, path(key), *formula, "s");
+        check_dimension(key, value, sub_path, *formula, "s");
         return {};
     }
     moment.offset = (*formula)(Vec3::Zero(), 0);

@@ -49,6 +49,7 @@ class BlockReader {
     std::optional<Vec<2>> point(const std::string& key);
     std::optional<std::vector<Vec<2>>> points(const std::string& key);
     std::optional<Moment> moment(const std::string& key);
+    std::optional<std::vector<Moment>> moments(const std::string& key);
     std::optional<Selection> condition(const std::string& key);
     /// [low, high] in `unit`; nothing for "run".
     std::optional<std::array<double, 2>> range(const std::string& key, const std::string& unit);
@@ -77,6 +78,7 @@ class BlockReader {
                                   const std::string& unit, bool in_space, bool in_time);
     std::optional<double> number_of(const std::string& key, const Value& value, const std::string& sub_path,
                                     const std::string& unit);
+    std::optional<Moment> moment_of(const std::string& key, const Value& value, const std::string& sub_path);
     std::optional<Vec<2>> point_of(const std::string& key, const Value& value, const std::string& sub_path);
     void check_dimension(const std::string& key, const Value& value, const std::string& sub_path,
                          const Expression& expression, const std::string& unit);

@@ -268,6 +268,17 @@ void check_rest(const Scene& scene, const Possible& possible, Problems& problems
         want_positive(problems, path + "/rate", "[movie] slow rate", slow.rate,
                       "0.1 is ten times as slow as the rest");
     }
+    if (scene.movie.hold && problems.fine("movie/hold") && problems.fine("movie/duration") &&
+        !(*scene.movie.hold >= 0 && *scene.movie.hold < scene.movie.duration))
+        problems.add("movie/hold",
+                     fmt::format("[movie] hold needs to be shorter than the film, {} s; found {} s",
+                                 scene.movie.duration, *scene.movie.hold));
+    want_positive(problems, "movie/flash", "[movie] flash", scene.movie.flash);
+    check_moment(possible, scene.movie.poster, false, "movie/poster", "[movie] poster", problems);
+    // A key frame of an event that cannot happen is left out like that of one that did not.
+    for (std::size_t k = 0; k < scene.strip.at.size(); ++k)
+        check_moment({true, true, true}, scene.strip.at[k], false, fmt::format("strip/at/{}", k),
+                     "[strip] at", problems);
 
     const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodySpec& body) {
         return body.spin != 0 || !body.velocity[0].is_constant() || !body.velocity[1].is_constant() ||

@@ -17,6 +17,7 @@ enum class KeyKind {
     point,      ///< [x, y]
     points,     ///< [[x, y], ...]
     moment,     ///< an event, perhaps plus or minus a time, or a time
+    moments,    ///< a list of moments
     condition,  ///< a selection of particles
     range,      ///< "run" or [low, high]
     size,       ///< [width, height], pixels

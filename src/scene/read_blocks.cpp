@@ -283,6 +283,9 @@ void read_movie(const Value& document, ReadContext& context, MovieSpec& movie) {
         set(slow.rate, part.quantity("rate"));
         movie.slow.push_back(slow);
     }
+    movie.hold = block->quantity("hold");
+    set(movie.flash, block->quantity("flash"));
+    movie.poster = block->moment("poster");
     if (const auto formats = block->choices("formats"))
         for (std::size_t i = 0; i < formats->size(); ++i)
             if (formats->at(i) != "mp4")
@@ -306,7 +309,8 @@ void read_blocks(const Value& document, ReadContext& context, Scene& scene) {
     read_run(document, context, scene);
     read_view(document, context, scene.view);
     read_movie(document, context, scene.movie);
-    for (const char* later : {"strip", "test", "contact"}) single(document, context, later);
+    if (auto block = single(document, context, "strip")) set(scene.strip.at, block->moments("at"));
+    for (const char* later : {"test", "contact"}) single(document, context, later);
     list(document, context, "rigid");
     for (const char* needed : {"material", "body"})
         if (needed[0] == 'm' ? scene.materials.empty() : scene.bodies.empty())

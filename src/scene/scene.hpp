@@ -84,7 +84,19 @@ struct MovieSpec {
     double duration = 12;  ///< of the whole film (s)
     int fps = 25;
     std::vector<SlowSpec> slow{};
+    std::optional<double> hold{};    ///< of the last picture, within the duration (s); absent: a twelfth of it
+    double flash = 0.6;              ///< of a fresh break (s of playback)
+    std::optional<Moment> poster{};  ///< absent: when two thirds of the bonds are broken
+    double hold_seconds() const { return hold.value_or(duration / 12); }
     int frames() const { return std::max(1, static_cast<int>(duration * fps + 0.5)); }
+};
+
+struct StripSpec {
+    std::vector<Moment> at{{EventName::start, 0},
+                           {EventName::first_break, 0},
+                           {EventName::peak_load, 0},
+                           {EventName::separation, 0},
+                           {EventName::end, 0}};
 };
 
 /// A whole experiment, checked; SI. Defaults stand here and in the structs it collects, once.
@@ -107,6 +119,7 @@ struct Scene {
     RunSpec run;
     View view;
     MovieSpec movie;
+    StripSpec strip;
 };
 
 /// What the solver gets.

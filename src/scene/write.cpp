@@ -176,7 +176,7 @@ void write_supports_and_loads(Writer& out, const Scene& scene) {
     }
 }
 
-void write_pictures(Writer& out, const View& view, const MovieSpec& movie) {
+void write_pictures(Writer& out, const View& view, const MovieSpec& movie, const StripSpec& strip) {
     out.block("[view]");
     out.line("size", fmt::format("[{}, {}]", view.width, view.height));
     out.line("colour", fmt::format("{{ field = {}, map = {}, range = {} }}", quote(view.field),
@@ -199,7 +199,15 @@ void write_pictures(Writer& out, const View& view, const MovieSpec& movie) {
         slow += fmt::format("{}{{ around = {}, span = {}, rate = {} }}", slow.empty() ? "" : ", ",
                             moment(s.around), s.span, s.rate);
     out.line("slow", "[" + slow + "]");
+    out.line("hold", movie.hold_seconds());
+    out.line("flash", movie.flash);
+    out.line("poster", movie.poster);
     out.line("formats", names({"mp4"}));
+
+    std::string at;
+    for (const Moment& m : strip.at) at += (at.empty() ? "" : ", ") + moment(m);
+    out.block("[strip]");
+    out.line("at", "[" + at + "]");
 }
 
 }  // namespace
@@ -227,7 +235,7 @@ std::string write_scene(const Scene& scene) {
     out.line("max_time", scene.run.max_time);
     out.line("time_step", scene.run.time_step);
     out.line("time_step_factor", scene.run.time_step_factor);
-    write_pictures(out, scene.view, scene.movie);
+    write_pictures(out, scene.view, scene.movie, scene.strip);
     return std::move(out.text);
 }
 

@@ -21,6 +21,7 @@ MovieSpec two_seconds() {
     MovieSpec movie;
     movie.duration = 2;
     movie.fps = 25;
+    movie.hold = 0;
     return movie;
 }
 
@@ -97,9 +98,9 @@ TEST(FilmPlan, AFlashLastsSixTenthsOfASecondOfPlayback) {
     movie.duration = 12;
     const FilmPlan plan = plan_film(movie, events(), {}, 0, 2);
     const int frame = frame_of(plan, EventName::first_break);
-    EXPECT_NEAR(plan.freshness(frame, plan.time[frame]), 1, 1e-9);
-    EXPECT_NEAR(plan.freshness(frame + 7, plan.time[frame]), 1 - 7 / 25.0 / 0.6, 0.01);
-    EXPECT_EQ(plan.freshness(frame + 16, plan.time[frame]), 0);
+    EXPECT_NEAR(plan.freshness(plan.film_time(frame), plan.time[frame]), 1, 1e-9);
+    EXPECT_NEAR(plan.freshness(plan.film_time(frame + 7), plan.time[frame]), 1 - 7 / 25.0 / 0.6, 0.01);
+    EXPECT_EQ(plan.freshness(plan.film_time(frame + 16), plan.time[frame]), 0);
 }
 
 TEST(FilmPlan, ThePosterShowsTheCrackWhenTwoThirdsOfTheBondsAreBroken) {
@@ -114,6 +115,28 @@ TEST(FilmPlan, WithoutABreakThePosterShowsThePeakLoad) {
     const FilmPlan plan = plan_film(two_seconds(), events(), {Bonds::intact}, 0, 2);
     EXPECT_GE(plan.time[plan.poster], 1.2);
     EXPECT_LT(plan.time[plan.poster - 1], 1.2);
+}
+
+TEST(FilmPlan, TheLastPictureStandsAsLongAsAsked) {
+    MovieSpec movie = two_seconds();
+    movie.hold = 0.4;
+    const FilmPlan plan = plan_film(movie, events(), {}, 0, 2);
+    ASSERT_EQ(plan.time.size(), 50u);
+    // The frames of the last 0.4 s of 2 s, at 49 intervals for 50 frames.
+    EXPECT_EQ(std::ranges::count(plan.time, 2.0), 10);
+    EXPECT_EQ(frame_of(plan, EventName::end), 40);
+    EXPECT_EQ(plan.film_time(49), 2);
+    EXPECT_EQ(plan_film({.duration = 12}, events(), {}, 0, 2).time[275], 2) << "a twelfth, unless asked";
+}
+
+TEST(FilmPlan, FlashAndPosterAreTheScenes) {
+    MovieSpec movie = two_seconds();
+    movie.flash = 1.2;
+    movie.poster = Moment{EventName::separation, 0.1};
+    const FilmPlan plan = plan_film(movie, events(), {1.0}, 0, 2);
+    EXPECT_NEAR(plan.freshness(plan.map.film(1.0) + 0.3, 1.0), 0.75, 1e-9);
+    EXPECT_GE(plan.time[plan.poster], 1.6);
+    EXPECT_LT(plan.time[plan.poster - 1], 1.6);
 }
 
 TEST(FilmPlan, OneFrameIsTheEnd) {

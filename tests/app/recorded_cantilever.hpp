@@ -90,6 +90,7 @@ struct RecordedCantilever {
         scene.view.height = 180;
         scene.movie.duration = 2;
         scene.movie.fps = 10;
+        scene.movie.hold = 0;
         return scene;
     }
 

@@ -137,7 +137,13 @@ duration = "8 s"
 fps = 30
 slow = [{ around = "first_break", span = "0.5 s", rate = 0.05 },
         { around = "2 s", span = "10 ms", rate = 0.1 }]
+hold = "0.5 s"
+flash = "0.4 s"
+poster = "peak_load"
 formats = ["mp4"]
+
+[strip]
+at = ["first_break", "separation + 0.2 s", "3 s"]
 )scene";
 
 /// The least that runs: 40 m x 20 m plate of 4 m particles, clamped on the left, pulled down at the right.
