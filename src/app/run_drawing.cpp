@@ -42,6 +42,10 @@ View shown_view(const Scene& scene) {
 
 }  // namespace
 
+double load_at(const History& history, double time) {
+    return at_time(history, time, [](const HistoryRow& row) { return row.load; });
+}
+
 std::string describe(const Scene& scene, const Topology& topology) {
     std::string text =
         fmt::format("{} particles · {} bonds", topology.reference_position.size(), topology.first.size());
@@ -113,7 +117,7 @@ int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& im
     renderer_.draw(picture, image);
 
     over.time = time;
-    over.load = at_time(run_.history(), time, [](const HistoryRow& row) { return row.load; });
+    over.load = load_at(run_.history(), time);
     over.broken = static_cast<int>(picture.broken.size());
     over.pixels_per_metre = camera_.scale;
     for (const Mark& mark : marks_) {

@@ -62,6 +62,9 @@ class RunDrawing {
     std::vector<double> largest_;  ///< per load: largest magnitude of what its arrows show
 };
 
+/// The primary load at any moment (N), straight lines between the rows of the history.
+double load_at(const History& history, double time);
+
 /// Counts and materials of a run in one line.
 std::string describe(const Scene& scene, const Topology& topology);
 

@@ -1,0 +1,83 @@
+#include "app/key_frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/whole_run.hpp"
+#include "base/units.hpp"
+
+namespace hibi {
+
+namespace {
+
+std::string words(const Moment& moment) {
+    std::string text = moment.event ? to_string(*moment.event) : "";
+    std::ranges::replace(text, '_', ' ');
+    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    if (moment.event && moment.offset != 0)
+        text += fmt::format(" {} {}", moment.offset < 0 ? "−" : "+", format_si(std::abs(moment.offset), "s"));
+    return text;
+}
+
+/// As high as the window of the run wants a picture of this width; neither a ribbon nor a tower.
+int height_for(const View& view, const RunReader& run, int width) {
+    std::array<double, 4> box = view.window.value_or(body_window(run, view));
+    const double ratio = (box[3] - box[1]) / (box[2] - box[0]);
+    // Room for symbols at all sides.
+    const double room = 0.12 * width;
+    const double height = std::clamp(ratio, 0.3, 1.6) * (width - room) + room;
+    return 2 * static_cast<int>(height / 2);
+}
+
+DrawingStyle still_style(const Scene& scene, const RunReader& run, const std::string& theme, int width,
+                         double text) {
+    DrawingStyle style = film_style(scene, run);
+    style.view.theme = theme;
+    style.view.show = {"supports", "loads"};
+    style.view.width = 2 * (width / 2);
+    style.view.height = height_for(style.view, run, width);
+    style.view.stroke = 1;
+    // Symbols suit the text beside them, as they do in a film (text of 12 pixels for a unit of 1).
+    style.view.stroke = text / 12 / symbol_unit(style.view);
+    return style;
+}
+
+}  // namespace
+
+std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
+    std::vector<KeyMoment> moments;
+    const double begin = run.states().front().time, end = run.states().back().time;
+    for (const Moment& wanted : scene.strip.at) {
+        const std::optional<double> time = run.summary().events.time_of(wanted);
+        if (!time || *time < begin || *time > end) continue;
+        const std::string label = words(wanted);
+        const auto same = std::ranges::find(moments, *time, &KeyMoment::time);
+        if (same == moments.end())
+            moments.push_back({*time, label, ""});
+        else if (!label.empty())
+            same->label += (same->label.empty() ? "" : ", ") + label;
+    }
+    std::ranges::sort(moments, {}, &KeyMoment::time);
+    for (KeyMoment& m : moments) {
+        m.detail = "t = " + format_si(m.time, "s", 3);
+        if (!run.topology().loads.empty())
+            m.detail += ", " + format_si(load_at(run.history(), m.time), "N", 3);
+    }
+    return moments;
+}
+
+StillDrawing::StillDrawing(const Scene& scene, const RunReader& run, const std::string& theme, int width,
+                           double text, const RendererOptions& options)
+    : drawing_(scene, run, still_style(scene, run, theme, width, text), options),
+      width_(2 * (width / 2)),
+      height_(height_for(scene.view, run, width)) {}
+
+Image StillDrawing::draw(double time) {
+    Image image(width_, height_);
+    drawing_.draw_at(time, image);
+    return image;
+}
+
+}  // namespace hibi

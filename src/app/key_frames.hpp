@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/run_drawing.hpp"
+#include "image/image.hpp"
+
+namespace hibi {
+
+/// A moment worth a picture of its own.
+struct KeyMoment {
+    double time = 0;     ///< simulated (s)
+    std::string label;   ///< "First break", "Start", "Separation + 0.2 s"; several at once joined by a comma
+    std::string detail;  ///< time, and load where there is one: "t = 17.6 s, 35.2 MN"
+};
+
+/// The moments of [strip] at that happened, in rising order, those at the same time as one.
+std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run);
+
+/// The body with supports, loads, notches and cracks at a moment, nothing beside it, as a figure for print:
+/// `width` pixels wide, as high as the body asks for, lines as thick as text of `text` pixels wants them. All
+/// moments of a run have the same size and colours.
+class StillDrawing {
+ public:
+    StillDrawing(const Scene& scene, const RunReader& run, const std::string& theme, int width, double text,
+                 const RendererOptions& options);
+    Image draw(double time);  ///< (s)
+
+ private:
+    RunDrawing drawing_;
+    int width_, height_;
+};
+
+}  // namespace hibi
