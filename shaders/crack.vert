@@ -34,7 +34,7 @@ void main() {
     float rank = 1.0 - 0.6 * smoothstep(1.1, 1.4, reached) - 0.2 * smoothstep(1.5, 1.9, reached);
     rank = mix(rank, max(rank, 0.6), state.x);  // but a fresh break is news, whatever its length
     float width = clamp(0.16 * spacing, max(1.4 * unit, 1.0), max(5.0 * unit, 1.4));
-    width *= rank * (1.0 + 0.5 * state.x);
+    width *= rank * (by_time ? 1.8 : 1.0 + 0.5 * state.x);
     half_width = 0.5 * max(width, 1.0);
     halo = min(1.2 * unit, 0.06 * spacing);
     float half_length = max(0.5 * spacing * rank - half_width, 0.0);

@@ -10,6 +10,7 @@
 #include "app/check.hpp"
 #include "app/doctor.hpp"
 #include "app/draw.hpp"
+#include "app/figures.hpp"
 #include "app/new.hpp"
 #include "app/reproduce.hpp"
 #include "app/run.hpp"
@@ -76,6 +77,12 @@ void add_drawing(Command& command, RendererOptions& renderer) {
     command.add_option("--shaders", renderer.shaders, "read the shaders from this folder");
 }
 
+void add_movie(Command& command, DrawOptions& draw) {
+    command.add_flag_callback(
+        "--no-movie", [&draw] { draw.movie = draw.frames = false; },
+        "neither frames nor film: poster, figures and report only");
+}
+
 void add_threads(Command& command) {
     command
         .add_option_function<int>("--threads", set_threads,
@@ -91,7 +98,8 @@ void add_run(CLI::App& app, int& status) {
     const auto o = options_of<RunOptions>();
     add_scene(*run, o->scene, o->overrides);
     run->add_option("-o,--output", o->folder, "folder of the run (default: out/<scene name>)");
-    run->add_flag("!--no-movie", o->movie, "simulate and record only");
+    add_movie(*run, o->draw);
+    run->add_flag("!--no-pictures", o->pictures, "simulate and record only");
     run->add_flag("--force", o->force, "overwrite the folder of another scene's run");
     run->add_flag("--json", o->json, "print run.json instead of the table");
     add_drawing(*run, o->draw.renderer);
@@ -106,11 +114,46 @@ void add_render(CLI::App& app, int& status) {
     render->add_option("DIR", o->folder, "folder of the run")->required();
     render->add_option("--scene", o->scene,
                        "take [view] and [movie] from this scene instead of DIR/scene.toml");
-    render->add_flag("!--no-movie", o->draw.movie, "frames and poster only");
+    add_movie(*render, o->draw);
     add_drawing(*render, o->draw.renderer);
     add_threads(*render);
     add_quiet(*render, o->quiet);
     render->callback([o, &status] { status = render_command(*o); });
+}
+
+void add_strip(CLI::App& app, int& status) {
+    Command* strip = app.add_subcommand("strip", "Key frames of a recorded run in one picture");
+    const auto o = options_of<StripOptions>();
+    strip->add_option("DIR", o->folder, "folder of the run")->required();
+    strip->add_option("-o,--output", o->output, "PNG to write (default: DIR/strip.png)");
+    strip->add_option("--theme", o->theme, "dark, light or print (default: the scene's)")
+        ->check(CLI::IsMember(theme_names()))
+        ->type_name("TEXT");
+    strip->add_option("--width", o->width_mm, "in mm, at 300 dpi")
+        ->check(CLI::Range(20, 1000))
+        ->capture_default_str();
+    strip->add_option("--columns", o->columns, "pictures in a row (default: as many as stay readable)")
+        ->check(CLI::Range(1, 100));
+    add_drawing(*strip, o->renderer);
+    strip->callback([o, &status] { status = strip_command(*o); });
+}
+
+void add_figures(CLI::App& app, int& status) {
+    Command* figures =
+        app.add_subcommand("figures", "Strip, crack history and curves of a recorded run, for print");
+    const auto o = options_of<FiguresOptions>();
+    figures->add_option("DIR", o->folder, "folder of the run")->required();
+    figures->add_option("-o,--output", o->output, "folder to write to (default: DIR/figures)");
+    figures
+        ->add_option("--theme", o->themes, "dark, light, print, several with commas (default: the scene's)")
+        ->check(CLI::IsMember(theme_names()))
+        ->delimiter(',')
+        ->type_name("TEXT");
+    figures->add_option("--width", o->widths, "in mm, at 300 dpi, several with commas (default: 170)")
+        ->check(CLI::Range(20, 1000))
+        ->delimiter(',');
+    add_drawing(*figures, o->renderer);
+    figures->callback([o, &status] { status = figures_command(*o); });
 }
 
 void add_check(CLI::App& app, int& status) {
@@ -167,7 +210,8 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add : {add_run, add_render, add_check, add_preview, add_new, add_reproduce, add_doctor})
+    for (const auto add : {add_run, add_render, add_strip, add_figures, add_check, add_preview, add_new,
+                           add_reproduce, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help

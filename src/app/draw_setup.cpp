@@ -59,7 +59,8 @@ void draw_setup(const Scene& scene, const std::filesystem::path& png, const Rend
     for (const NotchLine& notch : find_notches(topology))
         over.symbols.push_back(place_notch(notch, topology, x, y, picture.camera));
     overlay.draw(image, over);
-    write_png(png, image, {{"Title", scene.title}, {"Software", "hibi " HIBI_VERSION}}, true);
+    write_png(png, image,
+              {.text = {{"Title", scene.title}, {"Software", "hibi " HIBI_VERSION}}, .small = true});
 }
 
 }  // namespace hibi

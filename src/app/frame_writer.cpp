@@ -77,7 +77,7 @@ struct FrameWriter::Impl {
 
     void write(Job& job) {
         job.info.sha256 = pixel_hash(job.image);
-        write_png(folder / job.info.file, job.image, job.text);
+        write_png(folder / job.info.file, job.image, {.text = job.text});
         const std::lock_guard lock(mutex);
         done[job.index] = job.info;
     }

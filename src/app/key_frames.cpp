@@ -21,6 +21,12 @@ std::string words(const Moment& moment) {
     return text;
 }
 
+/// Unit of the symbols for a text of 1: smaller than in a film, where it is 1/12, since pictures are small
+/// here.
+constexpr double symbol_share = 1.0 / 20;
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
 /// As high as the window of the run wants a picture of this width; neither a ribbon nor a tower.
 int height_for(const View& view, const RunReader& run, int width) {
     std::array<double, 4> box = view.window.value_or(body_window(run, view));
@@ -39,8 +45,30 @@ DrawingStyle still_style(const Scene& scene, const RunReader& run, const std::st
     style.view.width = 2 * (width / 2);
     style.view.height = height_for(style.view, run, width);
     style.view.stroke = 1;
-    // Symbols suit the text beside them, as they do in a film (text of 12 pixels for a unit of 1).
-    style.view.stroke = text / 12 / symbol_unit(style.view);
+    style.view.stroke = symbol_share * text / symbol_unit(style.view);
+    return style;
+}
+
+/// From the first to the last break (s); nothing where there is none.
+std::optional<std::array<double, 2>> breaking_times(const RunReader& run) {
+    std::optional<std::array<double, 2>> range;
+    for (const double time : run.broken_at()) {
+        if (!std::isfinite(time)) continue;
+        range = range ? std::array{std::min((*range)[0], time), std::max((*range)[1], time)}
+                      : std::array{time, time};
+    }
+    return range;
+}
+
+DrawingStyle history_style(const Scene& scene, const RunReader& run, const std::string& theme, int width,
+                           double text) {
+    Scene unloaded = scene;
+    unloaded.view.magnify = 0;
+    DrawingStyle style = still_style(unloaded, run, theme, width, text);
+    style.history = true;
+    style.view.map = theme == "dark" ? "viridis_on_dark" : "viridis_on_light";
+    style.range = breaking_times(run).value_or(std::array{0.0, 1.0});
+    if (!(style.range[0] < style.range[1])) style.range[1] = style.range[0] + 1;
     return style;
 }
 
@@ -57,7 +85,8 @@ std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
         if (same == moments.end())
             moments.push_back({*time, label, ""});
         else if (!label.empty())
-            same->label += (same->label.empty() ? "" : ", ") + label;
+            same->label +=
+                same->label.empty() ? label : ", " + std::string(1, lower(label[0])) + label.substr(1);
     }
     std::ranges::sort(moments, {}, &KeyMoment::time);
     for (KeyMoment& m : moments) {
@@ -70,13 +99,35 @@ std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
 
 StillDrawing::StillDrawing(const Scene& scene, const RunReader& run, const std::string& theme, int width,
                            double text, const RendererOptions& options)
-    : drawing_(scene, run, still_style(scene, run, theme, width, text), options),
-      width_(2 * (width / 2)),
-      height_(height_for(scene.view, run, width)) {}
+    : StillDrawing(scene, run, still_style(scene, run, theme, width, text), options) {}
+
+StillDrawing::StillDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
+                           const RendererOptions& options)
+    : width_(style.view.width), height_(style.view.height), drawing_(scene, run, std::move(style), options) {}
 
 Image StillDrawing::draw(double time) {
     Image image(width_, height_);
     drawing_.draw_at(time, image);
+    return image;
+}
+
+HistoryDrawing::HistoryDrawing(const Scene& scene, const RunReader& run, const std::string& theme, int width,
+                               double text, const RendererOptions& options)
+    : HistoryDrawing(scene, run, history_style(scene, run, theme, width, text), options) {}
+
+HistoryDrawing::HistoryDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
+                               const RendererOptions& options)
+    : end_(run.states().back().time),
+      width_(style.view.width),
+      height_(style.view.height),
+      colours_(breaking_times(run) ? std::optional(ColourBar{"Time of breaking", "s", style.range[0],
+                                                             style.range[1], *style.view.map})
+                                   : std::nullopt),
+      drawing_(scene, run, std::move(style), options) {}
+
+Image HistoryDrawing::draw() {
+    Image image(width_, height_);
+    drawing_.draw_at(end_, image);
     return image;
 }
 

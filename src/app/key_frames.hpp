@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,33 @@ class StillDrawing {
     Image draw(double time);  ///< (s)
 
  private:
-    RunDrawing drawing_;
+    StillDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
+                 const RendererOptions& options);
+
     int width_, height_;
+    RunDrawing drawing_;
+};
+
+/// The whole failure in one still: the unloaded body, and across each bond that broke a mark coloured by
+/// when.
+class HistoryDrawing {
+ public:
+    /// As for StillDrawing.
+    HistoryDrawing(const Scene& scene, const RunReader& run, const std::string& theme, int width, double text,
+                   const RendererOptions& options);
+    Image draw();
+    /// Title, times and map of the colours; nothing where no bond broke.
+    std::optional<ColourBar> colours() const { return colours_; }
+    double pixels_per_metre() const { return drawing_.pixels_per_metre(); }
+
+ private:
+    HistoryDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
+                   const RendererOptions& options);
+
+    double end_;  ///< of the run (s)
+    int width_, height_;
+    std::optional<ColourBar> colours_;
+    RunDrawing drawing_;
 };
 
 }  // namespace hibi

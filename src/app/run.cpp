@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/figures.hpp"
 #include "app/progress.hpp"
 #include "app/recorder.hpp"
 #include "base/parallel.hpp"
@@ -142,6 +143,9 @@ void draw_with_progress(const Scene& scene, const fs::path& folder, DrawOptions 
     summary.frames = drawn.frames;
     summary.seconds["draw"] = drawn.draw_seconds;
     summary.seconds["encode"] = drawn.encode_seconds;
+    const Stopwatch figures;
+    draw_figures(scene, folder, options.renderer);
+    summary.seconds["figures"] = figures.seconds();
 }
 
 std::string event_line(const char* name, const std::optional<Event>& event, bool loaded, bool with_place) {
@@ -154,7 +158,12 @@ std::string event_line(const char* name, const std::optional<Event>& event, bool
     return line + "\n";
 }
 
-void print_results(const RunSummary& s, const fs::path& folder, bool drawn) {
+/// What a user looks at first.
+std::string made(const fs::path& folder, bool pictures, const DrawOptions& draw) {
+    return (folder / (!pictures ? "states" : draw.movie ? "movie.mp4" : "strip.png")).string();
+}
+
+void print_results(const RunSummary& s, const fs::path& folder, const RunOptions& options) {
     std::string text;
     text += event_line("first break", s.events.first_break, s.events.peak_load.has_value(), true);
     text += event_line("peak load", s.events.peak_load, true, false);
@@ -164,9 +173,9 @@ void print_results(const RunSummary& s, const fs::path& folder, bool drawn) {
     text += fmt::format("{:<16} {:.2g} up to first break, {:.2g} to the end: {}\n", "energy imbalance",
                         s.imbalance_at_first_break, s.worst_imbalance, s.trusted ? "trusted" : "NOT TRUSTED");
     text += fmt::format("{:<16} solve {:.2f}, draw {:.1f}, all {:.1f}\n", "seconds", s.seconds.at("solve"),
-                        drawn ? s.seconds.at("draw") : 0.0, s.seconds.at("total"));
-    text += fmt::format("{:<16} {}\n", drawn ? "film" : "states",
-                        (folder / (drawn ? "movie.mp4" : "states")).string());
+                        options.pictures ? s.seconds.at("draw") : 0.0, s.seconds.at("total"));
+    text += fmt::format("{:<16} {}\n", options.pictures ? "pictures" : "states",
+                        made(folder, options.pictures, options.draw));
     fmt::print("{}", text);
     std::fflush(stdout);
 }
@@ -241,7 +250,7 @@ int run_command(const RunOptions& options) {
         return 1;
     }
 
-    if (options.movie) {
+    if (options.pictures) {
         draw_with_progress(scene, folder, options.draw, options.quiet, summary);
         summary.seconds["total"] = total.seconds();
         write_summary(folder, summary);
@@ -252,7 +261,7 @@ int run_command(const RunOptions& options) {
         std::ifstream json(folder / "run.json");
         fmt::print("{}", std::string(std::istreambuf_iterator<char>(json), {}));
     } else {
-        print_results(summary, folder, options.movie);
+        print_results(summary, folder, options);
     }
     return summary.trusted ? 0 : 4;
 }
@@ -264,7 +273,7 @@ int render_command(const RenderOptions& options) {
     RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
     draw_with_progress(scene, folder, options.draw, options.quiet, summary);
     if (summarised) write_summary(folder, summary);
-    fmt::print("{}\n", (folder / (options.draw.movie ? "movie.mp4" : "frames")).string());
+    fmt::print("{}\n", made(folder, true, options.draw));
     return 0;
 }
 

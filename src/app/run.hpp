@@ -13,16 +13,16 @@ struct RunOptions {
     std::filesystem::path scene;
     std::optional<std::filesystem::path> folder{};  ///< absent: out/<scene name>
     Overrides overrides{};
-    bool movie = true;   ///< draw at all
-    bool force = false;  ///< overwrite the run of another scene
-    bool quiet = false;  ///< no progress
-    bool json = false;   ///< print run.json instead of the table
+    bool pictures = true;  ///< draw at all
+    bool force = false;    ///< overwrite the run of another scene
+    bool quiet = false;    ///< no progress
+    bool json = false;     ///< print run.json instead of the table
     DrawOptions draw{};
 };
 
-/// Simulates, records, draws and encodes. Returns the exit status: 0 done, 1 the run blew up, 4 its energy
-/// balance cannot be trusted. Throws SceneErrors for a wrong scene and std::runtime_error for the world's
-/// faults.
+/// Simulates, records, draws, encodes and reports. Returns the exit status: 0 done, 1 the run blew up, 4 its
+/// energy balance cannot be trusted. Throws SceneErrors for a wrong scene and std::runtime_error for the
+/// world's faults.
 int run_command(const RunOptions& options);
 
 /// Throws SceneErrors where the scene waits for a separation that cannot happen, since nothing holds what is

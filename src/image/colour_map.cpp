@@ -79,8 +79,13 @@ const ColourMap& colour_map(const std::string& name) {
                                          return t < 0.5 ? along(cold, 1 - 2 * t, c)
                                                         : trimmed_inferno(2 * t - 1, c);
                                      })};
+    static const ColourMap on_dark =
+                               table([](double t, int c) { return along(viridis, 0.35 + 0.65 * t, c); }),
+                           on_light = table([](double t, int c) { return along(viridis, 0.88 * t, c); });
     for (int i = 0; i < 4; ++i)
         if (colour_map_names()[i] == name) return maps[i];
+    if (name == "viridis_on_dark") return on_dark;
+    if (name == "viridis_on_light") return on_light;
     throw std::out_of_range("no colour map \"" + name + "\"");
 }
 

@@ -268,7 +268,8 @@ void Overlay::draw(Image& image, const OverlayFrame& frame) const {
     cairo_save(cairo);
     cairo_rectangle(cairo, layout.plot.x, layout.plot.y, layout.plot.width, layout.plot.height);
     cairo_clip(cairo);
-    for (const Symbol& symbol : frame.symbols) draw_symbol(cairo, symbol, impl_->colours, symbol_unit(impl_->view));
+    for (const Symbol& symbol : frame.symbols)
+        draw_symbol(cairo, symbol, impl_->colours, symbol_unit(impl_->view));
     cairo_restore(cairo);
 
     const CairoSurface layer(cairo_image_surface_create_for_data(

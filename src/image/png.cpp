@@ -98,14 +98,14 @@ Image decode(const std::vector<unsigned char>& bytes, PngText* text) {
 
 }  // namespace
 
-std::vector<unsigned char> encode_png(const Image& image, const PngText& text, bool small) {
+std::vector<unsigned char> encode_png(const Image& image, const PngOptions& options) {
     std::vector<unsigned char> bytes;
     bytes.reserve(image.bgra.size() / 4);
     Writer writer;
     png_set_write_fn(writer.png, &bytes, append, nullptr);
     png_set_IHDR(writer.png, writer.info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    if (small) {
+    if (options.small) {
         png_set_compression_level(writer.png, 9);
         png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
     } else {
@@ -113,7 +113,11 @@ std::vector<unsigned char> encode_png(const Image& image, const PngText& text, b
         png_set_compression_strategy(writer.png, Z_RLE);
         png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     }
-    set_text(writer, text);
+    set_text(writer, options.text);
+    if (options.dpi > 0) {
+        const auto per_metre = static_cast<png_uint_32>(options.dpi / 0.0254 + 0.5);
+        png_set_pHYs(writer.png, writer.info, per_metre, per_metre, PNG_RESOLUTION_METER);
+    }
     png_write_info(writer.png, writer.info);
     std::vector<std::uint8_t> row(std::size_t(3) * image.width);
     for (int y = 0; y < image.height; ++y) {
@@ -124,8 +128,8 @@ std::vector<unsigned char> encode_png(const Image& image, const PngText& text, b
     return bytes;
 }
 
-void write_png(const std::filesystem::path& file, const Image& image, const PngText& text, bool small) {
-    const std::vector<unsigned char> bytes = encode_png(image, text, small);
+void write_png(const std::filesystem::path& file, const Image& image, const PngOptions& options) {
+    const std::vector<unsigned char> bytes = encode_png(image, options);
     const std::filesystem::path temporary = file.string() + ".tmp";
     std::ofstream out(temporary, std::ios::binary);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

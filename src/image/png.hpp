@@ -12,11 +12,17 @@ namespace hibi {
 /// iTXt.
 using PngText = std::map<std::string, std::string>;
 
-/// RGB, 8 bits, no alpha. Fast setting (zlib level 1, SUB filter, run lengths); `small` for single figures.
-std::vector<unsigned char> encode_png(const Image& image, const PngText& text = {}, bool small = false);
+struct PngOptions {
+    PngText text{};
+    bool small =
+        false;       ///< for single figures, at the cost of time; else zlib level 1, SUB filter, run lengths
+    double dpi = 0;  ///< pixels per inch in print; 0: not said
+};
+
+/// RGB, 8 bits, no alpha.
+std::vector<unsigned char> encode_png(const Image& image, const PngOptions& options = {});
 /// The same to a file, under a temporary name first. Errors: std::runtime_error naming the file.
-void write_png(const std::filesystem::path& file, const Image& image, const PngText& text = {},
-               bool small = false);
+void write_png(const std::filesystem::path& file, const Image& image, const PngOptions& options = {});
 /// Reads any PNG (alpha is dropped, fewer channels are filled up, 16 bits are cut to 8), and its texts if
 /// wanted. Throws std::runtime_error naming the file and what is wrong with it.
 Image read_png(const std::filesystem::path& file, PngText* text = nullptr);

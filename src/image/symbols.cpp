@@ -132,9 +132,7 @@ Rgb colour_of(Symbol::Kind kind, const Theme& theme) {
 
 }  // namespace
 
-double symbol_unit(const View& view) {
-    return lay_out(view.width, view.height, {}).unit * view.stroke;
-}
+double symbol_unit(const View& view) { return lay_out(view.width, view.height, {}).unit * view.stroke; }
 
 double symbol_reach(Symbol::Kind kind, const View& view) {
     const double unit = symbol_unit(view);

@@ -15,6 +15,7 @@ struct Theme {
     Rgb bond;                    ///< intact bonds
     Rgb crack_fresh, crack_old;  ///< a flash when fresh, then a trace
     Rgb curve, curve_second;     ///< same as load, and as a crack: what belongs together has one colour
+    std::array<Rgb, 6> series;   ///< lines of a chart, told apart also by the colour-blind
     float rim = 0.35f;           ///< how much a particle's edge is darkened, 0..1
 };
 /// Throws std::out_of_range for a name not in theme_names().
@@ -25,7 +26,8 @@ const std::vector<std::string>& theme_names();
 using ColourMap = std::array<std::array<unsigned char, 3>, 256>;
 /// viridis, cividis, inferno (trimmed at the dark end so that it stands out from a dark background),
 /// diverging (for signed values: its middle is inferno's dark end, its upper half inferno, its lower half as
-/// bright in blue). Throws std::out_of_range for a name not in colour_map_names().
+/// bright in blue); and, for marks on a plain body, viridis_on_dark and viridis_on_light, without the end that
+/// would drown there. Throws std::out_of_range for a name not in colour_map_names().
 const ColourMap& colour_map(const std::string& name);
 const std::vector<std::string>& colour_map_names();
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,8 +14,10 @@ namespace {
 
 /// Everything a run writes beside its states and frames.
 constexpr const char* tables[] = {"history.csv", "breaks.csv", "scene.toml", "run.json", "states.hdf.series"};
-constexpr const char* pictures[] = {"movie.mp4", "movie.part.mp4", "movie.whole.mp4", "poster.png",
-                                    "frames.json"};
+constexpr const char* pictures[] = {"movie.mp4",    "movie.part.mp4", "movie.whole.mp4", "poster.png",
+                                    "frames.json",  "strip.png",      "cracks.png",      "curve.png",
+                                    "curve.svg",    "report.html",    "caption.md",      "snippets/figure.tex",
+                                    "snippets/figure.qmd", "snippets/figure.md"};
 
 void remove_one(const std::filesystem::path& file) {
     std::error_code error;
@@ -45,6 +48,16 @@ void remove_numbered(const std::filesystem::path& folder, const std::string& ext
     if (std::filesystem::is_empty(folder)) remove_one(folder);
 }
 
+/// strip_print_85mm.png and its like.
+void remove_figures(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) return;
+    static const std::regex figure(R"((strip|cracks|curve)_[a-z]+_[0-9.]+mm\.(png|svg)(\.tmp)?)");
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (std::regex_match(entry.path().filename().string(), figure)) files.push_back(entry.path());
+    std::ranges::for_each(files, remove_one);
+}
+
 }  // namespace
 
 void remove_leftovers(const std::filesystem::path& folder) {
@@ -57,6 +70,10 @@ void remove_leftovers(const std::filesystem::path& folder) {
 void remove_pictures(const std::filesystem::path& folder) {
     for (const char* name : pictures) remove_with_unfinished(folder / name);
     remove_numbered(folder / "frames", ".png");
+    remove_figures(folder / "figures");
+    for (const char* name : {"figures", "snippets"})
+        if (std::filesystem::is_directory(folder / name) && std::filesystem::is_empty(folder / name))
+            remove_one(folder / name);
 }
 
 bool holds_run(const std::filesystem::path& folder) {

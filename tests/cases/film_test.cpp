@@ -275,7 +275,7 @@ TEST_F(Film, AnEventThatIsNotReachedIsAWarningAndNull) {
     const fs::path folder = folder_ / "short";
     const fs::path scene =
         edited(scene_, folder_ / "short.toml", {{"max_time = \"60 s\"", "max_time = \"2 s\""}});
-    const Answer answer = hibi("run " + scene.string() + " --no-movie -q -o " + folder.string());
+    const Answer answer = hibi("run " + scene.string() + " --no-pictures -q -o " + folder.string());
     EXPECT_EQ(answer.status, 0) << answer.out;
     EXPECT_NE(answer.out.find("separation was not reached"), std::string::npos) << answer.out;
     const auto run = nlohmann::json::parse(text_of(folder / "run.json"));

@@ -43,7 +43,7 @@ TEST(Png, PixelsAndTextComeBack) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "a.png";
     for (const bool small : {false, true}) {
-        write_png(file, gradient(), {{"Title", "Bending"}, {"Comment", "曲げ破壊, ν = 0.3"}}, small);
+        write_png(file, gradient(), {.text = {{"Title", "Bending"}, {"Comment", "曲げ破壊, ν = 0.3"}}, .small = small});
         PngText text;
         EXPECT_EQ(pixel_hash(read_png(file, &text)), pixel_hash(gradient()));
         EXPECT_EQ(text["Title"], "Bending");
@@ -53,7 +53,7 @@ TEST(Png, PixelsAndTextComeBack) {
 }
 
 TEST(Png, SmallSettingIsSmaller) {
-    EXPECT_LT(encode_png(gradient(), {}, true).size(), encode_png(gradient()).size());
+    EXPECT_LT(encode_png(gradient(), {.small = true}).size(), encode_png(gradient()).size());
 }
 
 TEST(Png, EveryTruncationIsAnErrorNamingTheFile) {
@@ -91,6 +91,17 @@ TEST(Png, AFileThatCannotBeWrittenIsNamed) {
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos);
     }
+}
+
+TEST(Png, SaysHowLargeItIsInPrint) {
+    const std::vector<unsigned char> bytes = encode_png(gradient(), {.dpi = 300});
+    const std::string text(bytes.begin(), bytes.end());
+    const std::size_t at = text.find("pHYs");
+    ASSERT_NE(at, std::string::npos);
+    // 300 per inch are 11811 (0x2e23) per metre, along both axes; the unit is 1.
+    EXPECT_EQ(text.substr(at + 4, 9), std::string("\0\0\x2e\x23\0\0\x2e\x23\1", 9));
+    const std::vector<unsigned char> plain = encode_png(gradient());
+    EXPECT_EQ(std::string(plain.begin(), plain.end()).find("pHYs"), std::string::npos);
 }
 
 }  // namespace
