@@ -43,7 +43,8 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
     FrameWriter writer(folder, options.frames ? std::max(1, options.workers) : 0, video, scene.view.width,
                        scene.view.height);
     const auto write_poster = [&](const Image& image) {
-        write_png(folder / "poster.png", image, {.text = png_text(run, plan.time[plan.poster]), .small = true});
+        write_png(folder / "poster.png", image,
+                  {.text = png_text(run, plan.time[plan.poster]), .small = true});
     };
     for (int k = 0; k < frames; ++k) {
         Image image = writer.take();

@@ -17,7 +17,8 @@ std::string words(const Moment& moment) {
     std::ranges::replace(text, '_', ' ');
     if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     if (moment.event && moment.offset != 0)
-        text += fmt::format(" {} {}", moment.offset < 0 ? "−" : "+", format_si(std::abs(moment.offset), "s"));
+        text += fmt::format(" {} {}", moment.offset < 0 ? "−" : "+",
+                            format_si(std::abs(moment.offset), "s", 3, true));
     return text;
 }
 
@@ -28,22 +29,22 @@ constexpr double symbol_share = 1.0 / 20;
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 /// As high as the window of the run wants a picture of this width; neither a ribbon nor a tower.
-int height_for(const View& view, const RunReader& run, int width) {
+int height_for(const View& view, const RunReader& run, int width, double most) {
     std::array<double, 4> box = view.window.value_or(body_window(run, view));
     const double ratio = (box[3] - box[1]) / (box[2] - box[0]);
     // Room for symbols at all sides.
     const double room = 0.12 * width;
-    const double height = std::clamp(ratio, 0.3, 1.6) * (width - room) + room;
+    const double height = std::clamp(ratio, 0.3, most) * (width - room) + room;
     return 2 * static_cast<int>(height / 2);
 }
 
 DrawingStyle still_style(const Scene& scene, const RunReader& run, const std::string& theme, int width,
-                         double text) {
+                         double text, double most_height) {
     DrawingStyle style = film_style(scene, run);
     style.view.theme = theme;
     style.view.show = {"supports", "loads"};
     style.view.width = 2 * (width / 2);
-    style.view.height = height_for(style.view, run, width);
+    style.view.height = height_for(style.view, run, width, most_height);
     style.view.stroke = 1;
     style.view.stroke = symbol_share * text / symbol_unit(style.view);
     return style;
@@ -64,7 +65,8 @@ DrawingStyle history_style(const Scene& scene, const RunReader& run, const std::
                            double text) {
     Scene unloaded = scene;
     unloaded.view.magnify = 0;
-    DrawingStyle style = still_style(unloaded, run, theme, width, text);
+    // Alone on its line, and so no higher than a page likes.
+    DrawingStyle style = still_style(unloaded, run, theme, width, text, 0.7);
     style.history = true;
     style.view.map = theme == "dark" ? "viridis_on_dark" : "viridis_on_light";
     style.range = breaking_times(run).value_or(std::array{0.0, 1.0});
@@ -90,16 +92,16 @@ std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
     }
     std::ranges::sort(moments, {}, &KeyMoment::time);
     for (KeyMoment& m : moments) {
-        m.detail = "t = " + format_si(m.time, "s", 3);
+        m.detail = "t = " + format_si(m.time, "s", 3, m.time == 0);
         if (!run.topology().loads.empty())
-            m.detail += ", " + format_si(load_at(run.history(), m.time), "N", 3);
+            m.detail += ", " + format_si(load_at(run.history(), m.time), "N", 3, m.time == 0);
     }
     return moments;
 }
 
 StillDrawing::StillDrawing(const Scene& scene, const RunReader& run, const std::string& theme, int width,
                            double text, const RendererOptions& options)
-    : StillDrawing(scene, run, still_style(scene, run, theme, width, text), options) {}
+    : StillDrawing(scene, run, still_style(scene, run, theme, width, text, 1.6), options) {}
 
 StillDrawing::StillDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
                            const RendererOptions& options)

@@ -5,6 +5,14 @@
 
 namespace hibi {
 
+namespace {
+
+/// Where the sides have parted further (in spacings), the gap itself shows the notch, and a line would float
+/// in it.
+constexpr double widest_opening = 3;
+
+}  // namespace
+
 std::vector<NotchLine> find_notches(const Topology& topology) {
     std::vector<NotchLine> lines;
     if (topology.notches.empty() || topology.spacing.empty()) return lines;
@@ -40,6 +48,10 @@ Symbol place_notch(const NotchLine& notch, const Topology& topology, std::span<c
     Symbol symbol;
     symbol.kind = Symbol::Kind::notch;
     for (std::size_t k = 0; k < notch.points.size(); ++k) {
+        const auto [a, b] = notch.beside[k];
+        const auto& X = topology.reference_position;
+        const double apart = std::hypot(x[b] - x[a], y[b] - y[a]) - (X[b] - X[a]).norm();
+        if (apart > widest_opening * topology.spacing[a]) continue;
         Vec3 p = notch.points[k];
         for (const int i : notch.beside[k]) p += (Vec3(x[i], y[i], 0) - topology.reference_position[i]) / 2;
         symbol.points.push_back({camera.pixel_x(p.x()), camera.pixel_y(p.y())});

@@ -18,7 +18,7 @@ namespace {
 // Everything here is in points; images scale the pen.
 constexpr double least_chart_mm = 75, between_mm = 6;
 constexpr double height_share = 0.66;  // of a chart's width, without legend and note
-constexpr double line_width = 1.1, thin_line = 0.5, dot = 1.9, closest = 0.2;
+constexpr double line_width = 1.1, thin_line = 0.5, dot = 1.9, closest = 0.35;
 
 bool shown(double value, bool logarithmic) { return std::isfinite(value) && (!logarithmic || value > 0); }
 
@@ -421,6 +421,9 @@ std::string chart_svg(const std::vector<Chart>& charts, const FigureStyle& style
         figure.draw(pen.get(), theme(style.theme).background);
         cairo_surface_finish(surface.get());
     }
+    // Cairo counts its surfaces, and the second figure of a program would differ from the first.
+    const std::size_t id = svg.find(" id=\"surface");
+    if (id != std::string::npos) svg.erase(id, svg.find('"', id + 5) + 1 - id);
     std::string title;
     for (const Chart& chart : charts)
         title += (title.empty() ? "" : "; ") + (chart.title.empty() ? chart.y.title : chart.title);

@@ -44,6 +44,17 @@ TEST(NotchLine, MovesWithTheMiddleOfItsSides) {
     EXPECT_NEAR(symbol.points.back()[1], camera.pixel_y(3), 1e-9);
 }
 
+TEST(NotchLine, EndsWhereItsSidesHaveParted) {
+    const Topology t = notched_plate();
+    std::vector<double> x, y;
+    for (const Vec3& X : t.reference_position) {
+        x.push_back(X.x());
+        y.push_back(X.y() + (X.y() > 2 ? 4 : 0));
+    }
+    const Camera2 camera = Camera2::fit(0, 0, 20, 20, {0, 0, 200, 200});
+    EXPECT_TRUE(place_notch(find_notches(t).front(), t, x, y, camera).points.empty());
+}
+
 TEST(NotchLine, WithoutANotchThereIsNone) {
     Topology t = notched_plate();
     t.notches = {{Vec3(20, 0, 0), Vec3(30, 0, 0)}};
