@@ -12,6 +12,7 @@
 #include "app/draw.hpp"
 #include "app/figures.hpp"
 #include "app/new.hpp"
+#include "app/report.hpp"
 #include "app/reproduce.hpp"
 #include "app/run.hpp"
 #include "base/parallel.hpp"
@@ -156,6 +157,14 @@ void add_figures(CLI::App& app, int& status) {
     figures->callback([o, &status] { status = figures_command(*o); });
 }
 
+void add_report(CLI::App& app, int& status) {
+    Command* report = app.add_subcommand("report", "Page, caption and snippets of a recorded run once more");
+    const auto o = options_of<ReportOptions>();
+    report->add_option("DIR", o->folder, "folder of the run")->required();
+    add_drawing(*report, o->renderer);
+    report->callback([o, &status] { status = report_command(*o); });
+}
+
 void add_check(CLI::App& app, int& status) {
     Command* check =
         app.add_subcommand("check", "Read a scene and say what would be modelled; nothing is run");
@@ -210,8 +219,8 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add : {add_run, add_render, add_strip, add_figures, add_check, add_preview, add_new,
-                           add_reproduce, add_doctor})
+    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_check, add_preview,
+                           add_new, add_reproduce, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help

@@ -10,6 +10,7 @@
 #include "app/figures.hpp"
 #include "app/progress.hpp"
 #include "app/recorder.hpp"
+#include "app/report.hpp"
 #include "base/parallel.hpp"
 #include "base/units.hpp"
 #include "measure/watch.hpp"
@@ -134,7 +135,7 @@ std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary)
     return list;
 }
 
-/// Draws, and notes in the summary how many frames and how long.
+/// Draws frames, films, figures and the report, and notes in the summary how many frames and how long.
 void draw_with_progress(const Scene& scene, const fs::path& folder, DrawOptions options, bool quiet,
                         RunSummary& summary) {
     Progress progress("drawing", "frames", quiet);
@@ -145,6 +146,7 @@ void draw_with_progress(const Scene& scene, const fs::path& folder, DrawOptions 
     summary.seconds["encode"] = drawn.encode_seconds;
     const Stopwatch figures;
     draw_figures(scene, folder, options.renderer);
+    write_report(scene, folder, options.renderer);
     summary.seconds["figures"] = figures.seconds();
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+
+#include "render/renderer.hpp"
+#include "scene/scene.hpp"
+
+namespace hibi {
+
+/// report.html, caption.md and snippets/ of a recorded and drawn run; a film is part of the page if there is
+/// one.
+void write_report(const Scene& scene, const std::filesystem::path& folder, const RendererOptions& renderer);
+
+struct ReportOptions {
+    std::filesystem::path folder;  ///< of the run
+    RendererOptions renderer{};
+};
+/// `hibi report`: writes them again. Returns the exit status.
+int report_command(const ReportOptions& options);
+
+}  // namespace hibi

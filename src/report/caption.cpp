@@ -1,0 +1,168 @@
+#include "report/caption.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "base/units.hpp"
+
+namespace hibi {
+
+namespace {
+
+struct Box {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    void include(const Vec3& p) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+};
+
+/// "at the upper left": where in the body a place is, in thirds.
+std::string place_in(const Box& body, const Vec3& p) {
+    const auto third = [&](int axis) {
+        const double span = body.high[axis] - body.low[axis];
+        const double share = span > 0 ? (p[axis] - body.low[axis]) / span : 0.5;
+        return share < 1.0 / 3 ? 0 : share > 2.0 / 3 ? 2 : 1;
+    };
+    static const char* const words[3][3] = {{"at the lower left", "at the bottom", "at the lower right"},
+                                            {"at the left", "in the middle", "at the right"},
+                                            {"at the upper left", "at the top", "at the upper right"}};
+    return words[third(1)][third(0)];
+}
+
+/// The same for a set of particles: a whole edge is named by its side.
+std::string place_of(const Box& body, const Topology& topology, const std::vector<int>& particles) {
+    Vec3 middle = Vec3::Zero();
+    for (const int i : particles)
+        middle += topology.reference_position[i] / static_cast<double>(particles.size());
+    return place_in(body, middle);
+}
+
+std::string direction_words(const Vec3& d) {
+    if (std::abs(d.y()) >= std::abs(d.x())) return d.y() < 0 ? "downwards" : "upwards";
+    return d.x() < 0 ? "to the left" : "to the right";
+}
+
+std::string replaced(std::string text, const std::map<char, std::string>& by) {
+    std::string result;
+    for (const char c : text) {
+        const auto found = by.find(c);
+        result += found == by.end() ? std::string(1, c) : found->second;
+    }
+    return result;
+}
+
+/// Characters that Markdown would take for its own.
+std::string markdown_escaped(const std::string& text) {
+    std::map<char, std::string> by;
+    for (const char c : std::string("\\`*_{}[]<>#|$")) by[c] = std::string("\\") + c;
+    return replaced(text, by);
+}
+
+std::string quoted(const std::string& text) { return replaced(text, {{'"', "\\\""}, {'\\', "\\\\"}}); }
+
+}  // namespace
+
+Caption caption_of(const RunSummary& s, const Topology& topology, const std::string& about,
+                   const std::string& description) {
+    Caption c;
+    const auto sentence = [](std::string& to, const std::string& text) {
+        to += (to.empty() ? "" : " ") + text + (text.ends_with('.') ? "" : ".");
+    };
+    const Events& e = s.events;
+    const bool loaded = e.peak_load.has_value();
+    const auto under = [&](const Event& event) {
+        return loaded ? " under " + format_si(event.load, "N") : std::string();
+    };
+    sentence(c.text, s.title);
+    if (!about.empty()) sentence(c.text, about);
+    sentence(c.text, description);
+    if (e.first_break)
+        sentence(c.text, fmt::format("The first bond breaks at t = {}{}", format_si(e.first_break->time, "s"),
+                                     under(*e.first_break)));
+    if (e.separation)
+        sentence(c.text, fmt::format("The body separates at t = {}{}", format_si(e.separation->time, "s"),
+                                     under(*e.separation)));
+    if (!e.first_break) sentence(c.text, "No bond breaks");
+    sentence(c.text, fmt::format("Energy balance within {:.2g} %", 100 * s.worst_imbalance));
+    if (!s.trusted) sentence(c.text, "This run is not to be trusted");
+    sentence(c.text,
+             fmt::format("Computed and drawn by hibi {}, scene {}", s.version, s.scene_hash.substr(0, 12)));
+
+    Box body;
+    for (const Vec3& X : topology.reference_position) body.include(X);
+    const Vec3 size =
+        body.high - body.low + Vec3::Constant(topology.spacing.empty() ? 0 : topology.spacing.front());
+    sentence(c.alternative,
+             fmt::format("A body {} wide and {} high, drawn as {} discs", format_si(size.x(), "m", 3, true),
+                         format_si(size.y(), "m", 3, true), s.particles));
+    for (const Support& support : topology.supports)
+        sentence(
+            c.alternative,
+            fmt::format("It {} {}", support.axes[0] && support.axes[1] ? "is clamped" : "runs on rollers",
+                        place_of(body, topology, support.particles)));
+    for (const LoadMark& load : topology.loads)
+        sentence(c.alternative,
+                 fmt::format("It is {} {} {}",
+                             load.kind == "force" || load.kind == "pressure" ? "loaded" : "moved",
+                             direction_words(load.direction), place_of(body, topology, load.particles)));
+    if (!topology.notches.empty())
+        sentence(c.alternative,
+                 fmt::format("It has a cut {}",
+                             place_in(body, (topology.notches[0][0] + topology.notches[0][1]) / 2)));
+    if (e.first_break)
+        sentence(c.alternative,
+                 fmt::format("The first bond breaks {}; {} of {} bonds are broken in the end, and "
+                             "the body {}",
+                             place_in(body, e.first_break->position), s.broken, s.bonds,
+                             e.separation ? "is in pieces" : "still hangs together"));
+    return c;
+}
+
+std::string caption_markdown(const Caption& c, const std::string& title) {
+    return fmt::format("# {}\n\n## Caption\n\n{}\n\n## Alternative text\n\n{}\n", markdown_escaped(title),
+                       markdown_escaped(c.text), markdown_escaped(c.alternative));
+}
+
+std::string latex_escaped(const std::string& text) {
+    return replaced(text, {{'\\', "\\textbackslash{}"},
+                           {'~', "\\textasciitilde{}"},
+                           {'^', "\\textasciicircum{}"},
+                           {'_', "\\_"},
+                           {'%', "\\%"},
+                           {'&', "\\&"},
+                           {'#', "\\#"},
+                           {'$', "\\$"},
+                           {'{', "\\{"},
+                           {'}', "\\}"}});
+}
+
+std::string latex_snippet(const Caption& c, const std::string& label) {
+    // The pictures for print are as wide as a page (170 mm), and shrink to the column.
+    std::string text = "% \\usepackage{graphicx}; for LuaLaTeX or XeLaTeX, or with utf8 input\n";
+    for (const char* name : {"strip", "cracks", "curve"})
+        text += fmt::format(
+            "\\begin{{figure}}\n  \\centering\n  \\includegraphics[width=\\linewidth]"
+            "{{figures/{}_print_170mm.png}}\n  \\caption{{{}}}\n  \\label{{fig:{}-{}}}\n"
+            "\\end{{figure}}\n\n",
+            name, latex_escaped(c.text), label, name);
+    return text;
+}
+
+std::string quarto_snippet(const Caption& c, const std::string& label) {
+    std::string text = fmt::format("{{{{< video movie.mp4 title=\"{}\" >}}}}\n\n", quoted(c.alternative));
+    for (const char* name : {"strip", "cracks", "curve"})
+        text += fmt::format("![{}](figures/{}_print_170mm.png){{#fig-{}-{} fig-alt=\"{}\"}}\n\n",
+                            markdown_escaped(c.text), name, label, name, quoted(c.alternative));
+    return text;
+}
+
+std::string markdown_snippet(const Caption& c) {
+    return fmt::format("![{}](strip.png)\n\n*{}*\n\n[Film](movie.mp4) · [Report](report.html)\n",
+                       markdown_escaped(c.alternative), markdown_escaped(c.text));
+}
+
+}  // namespace hibi

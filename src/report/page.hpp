@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "measure/history.hpp"
+#include "record/run_folder.hpp"
+
+namespace hibi {
+
+struct PageKeyFrame {
+    double time = 0;  ///< simulated (s)
+    std::string label, detail;
+    std::string png;  ///< bytes
+};
+
+/// Everything a report shows. Pictures and film are bytes, since the page is one file.
+struct PageContent {
+    RunSummary summary;
+    std::string about;        ///< of the scene; may be empty
+    std::string description;  ///< counts and materials in one line
+    History history;
+    std::string scene;  ///< scene.toml
+    std::string caption;
+    std::string poster, cracks;       ///< PNG; empty: left out
+    std::string film;                 ///< MP4; empty: the poster stands in its place
+    std::vector<double> frame_times;  ///< simulated time of each frame of the film (s)
+    int fps = 25;
+    std::vector<PageKeyFrame> key_frames;
+};
+
+/// One offline HTML page: film, curves whose cursor follows the film and moves it, key frames, results, energy
+/// verdict, scene, and the command that makes it again. Light and dark, for screen, phone and print. It asks
+/// nothing of a network.
+std::string report_page(const PageContent& content);
+
+}  // namespace hibi
