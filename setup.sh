@@ -11,10 +11,12 @@ packages_for() { awk -v who="^($1)\$" '$1 ~ who { print $2 }' "$root/dependencie
 # Those of the arguments that are not installed.
 missing_of() {
     local installed
-    installed="$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)"
+    installed="$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "${@%%=*}" 2>/dev/null || true)"
     local package
     for package in "$@"; do
-        grep -qx "installed $package" <<<"$installed" || echo "$package"
+        # PACKAGE=COMMAND: the command may come from elsewhere.
+        [ "$package" = "${package#*=}" ] || ! command -v "${package#*=}" >/dev/null || continue
+        grep -qx "installed ${package%%=*}" <<<"$installed" || echo "${package%%=*}"
     done
 }
 

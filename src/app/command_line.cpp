@@ -82,6 +82,7 @@ void add_movie(Command& command, DrawOptions& draw) {
     command.add_flag_callback(
         "--no-movie", [&draw] { draw.movie = draw.frames = false; },
         "neither frames nor film: poster, figures and report only");
+    command.add_flag("!--no-report", draw.report, "neither figures nor report");
 }
 
 void add_threads(Command& command) {

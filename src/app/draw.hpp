@@ -12,6 +12,7 @@ struct DrawOptions {
     RendererOptions renderer{};
     bool movie = true;   ///< movie.mp4 beside frames and poster
     bool frames = true;  ///< keep the PNG frames
+    bool report = true;  ///< figures and report; not by draw_run itself
     int workers = 2;     ///< threads that hash and write PNG frames; the pictures do not depend on it
     std::function<void(int done, int total)> progress{};
 };

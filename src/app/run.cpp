@@ -144,6 +144,7 @@ void draw_with_progress(const Scene& scene, const fs::path& folder, DrawOptions 
     summary.frames = drawn.frames;
     summary.seconds["draw"] = drawn.draw_seconds;
     summary.seconds["encode"] = drawn.encode_seconds;
+    if (!options.report) return;
     const Stopwatch figures;
     draw_figures(scene, folder, options.renderer);
     write_report(scene, folder, options.renderer);

@@ -52,7 +52,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> rooms_of_librar
     {"cairo.*|png\\.h", {"image"}},
     {"ft2build\\.h|freetype.*", {"image"}},
     {"CLI/.*", {"app"}},
-    {"nlohmann/.*", {"record", "app"}},
+    {"nlohmann/.*", {"record", "scene", "report", "app"}},
     {"udunits2\\.h|nettle/.*", {"base"}},
 };
 

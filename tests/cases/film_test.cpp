@@ -94,7 +94,8 @@ class Film : public testing::Test {
 TEST_F(Film, LeavesEveryFileOfTheContract) {
     for (const char* name :
          {"movie.mp4", "frames/000000.png", "frames/000049.png", "frames.json", "poster.png", "history.csv",
-          "breaks.csv", "states.hdf.series", "scene.toml", "run.json"})
+          "breaks.csv", "states.hdf.series", "scene.toml", "run.json", "strip.png", "cracks.png", "curve.png",
+          "curve.svg", "report.html", "caption.md", "snippets/figure.tex", "figures/strip_print_85mm.png"})
         EXPECT_TRUE(fs::exists(run_ / name)) << name;
     EXPECT_FALSE(fs::exists(run_ / "frames/000050.png"));
     for (const auto& entry : fs::recursive_directory_iterator(run_))
@@ -110,7 +111,7 @@ TEST_F(Film, SameBitsAgainWithOtherThreadsVectorsAndBackEnd) {
     for (const auto& [arguments, environment] : ways) {
         const fs::path other = folder_ / "other";
         const Answer answer = hibi(
-            "run " + scene_.string() + " -q --force -o " + other.string() + " " + arguments, environment);
+            "run " + scene_.string() + " -q --no-report --force -o " + other.string() + " " + arguments, environment);
         ASSERT_EQ(answer.status, 0) << answer.out;
         EXPECT_EQ(prints_of(other), first) << environment << " " << arguments;
     }
@@ -126,7 +127,7 @@ TEST_F(Film, SameStatesOfALargerPlateForOneTwoAndThreeThreads) {
     std::set<std::string> prints;
     for (const char* threads : {"1", "2", "3"}) {
         const fs::path other = folder_ / "larger";
-        const Answer answer = hibi("run " + scene.string() + " -q --force -p spacing=0.4m --threads " +
+        const Answer answer = hibi("run " + scene.string() + " -q --no-report --force -p spacing=0.4m --threads " +
                                    threads + " -o " + other.string());
         ASSERT_EQ(answer.status & ~4, 0) << answer.out;
         EXPECT_GT(RunReader(other).summary().broken, 10);
@@ -140,12 +141,12 @@ TEST_F(Film, TheSceneAndStrangersFilesAreNeverOverwritten) {
     fs::create_directories(folder);
     fs::copy_file(scene_, folder / "scene.toml");
     const std::string before = text_of(folder / "scene.toml");
-    Answer answer = hibi("run " + (folder / "scene.toml").string() + " -q --force -o " + folder.string());
+    Answer answer = hibi("run " + (folder / "scene.toml").string() + " -q --no-report --force -o " + folder.string());
     EXPECT_EQ(answer.status, 1) << answer.out;
     EXPECT_EQ(text_of(folder / "scene.toml"), before);
     fs::remove(folder / "scene.toml");
     std::ofstream(folder / "notes.txt") << "mine";
-    answer = hibi("run " + scene_.string() + " -q -o " + folder.string());
+    answer = hibi("run " + scene_.string() + " -q --no-report -o " + folder.string());
     EXPECT_EQ(answer.status, 1) << answer.out;
     EXPECT_EQ(text_of(folder / "notes.txt"), "mine");
     EXPECT_FALSE(fs::exists(folder / "run.json"));
@@ -157,7 +158,7 @@ TEST_F(Film, ARunThatWasKilledIsDrawnFromWhatItLeft) {
     for (const char* name :
          {"frames", "frames.json", "movie.mp4", "poster.png", "run.json", "states.hdf.series"})
         fs::remove_all(copy / name);
-    const Answer answer = hibi("render -q " + copy.string());
+    const Answer answer = hibi("render -q --no-report " + copy.string());
     EXPECT_EQ(answer.status, 0) << answer.out;
     EXPECT_TRUE(fs::exists(copy / "movie.mp4"));
     EXPECT_TRUE(RunReader(copy).summary().events.first_break);
@@ -169,7 +170,7 @@ TEST_F(Film, SeparationOfWhatNeverHeldTogetherIsAnErrorBeforeTheRun) {
         scene_, folder_ / "apart.toml",
         {{"\nratio = 0.3", "\nrate = 2"},
          {"\\[damping\\]", "[[notch]]\nline = [[\"20 m\", \"-1 m\"], [\"20 m\", \"21 m\"]]\n\n[damping]"}});
-    const Answer answer = hibi("run " + scene.string() + " -q -o " + (folder_ / "apart").string());
+    const Answer answer = hibi("run " + scene.string() + " -q --no-report -o " + (folder_ / "apart").string());
     EXPECT_EQ(answer.status, 2) << answer.out;
     EXPECT_NE(answer.out.find("separation cannot happen"), std::string::npos) << answer.out;
     EXPECT_FALSE(fs::exists(folder_ / "apart"));
@@ -180,7 +181,7 @@ TEST_F(Film, RenderDrawsTheSameFramesFromStatesAlone) {
     fs::copy(run_, copy, fs::copy_options::recursive);
     const std::string first = prints_of(copy);
     for (const char* name : {"frames", "frames.json", "movie.mp4", "poster.png"}) fs::remove_all(copy / name);
-    const Answer answer = hibi("render -q " + copy.string());
+    const Answer answer = hibi("render -q --no-report " + copy.string());
     ASSERT_EQ(answer.status, 0) << answer.out;
     EXPECT_EQ(prints_of(copy), first);
     EXPECT_TRUE(fs::exists(copy / "movie.mp4"));
@@ -250,13 +251,43 @@ TEST_F(Film, IsAnH264FilmOfTheRightLengthForEveryPlayer) {
 
 TEST_F(Film, PlaysAndSeeksInABrowser) {
     const Answer answer =
-        call(HIBI_SOURCE_DIR "/tests/film/browser_check.py " + (run_ / "movie.mp4").string() + " 320 180 2");
+        call("node " HIBI_WEB "/film_check.mjs " + (run_ / "movie.mp4").string() + " 320 180 2");
     EXPECT_EQ(answer.status, 0) << answer.out;
+}
+
+TEST_F(Film, ItsReportIsReadInABrowserWithoutANetwork) {
+    const Answer answer = call("node " HIBI_WEB "/report_check.mjs " + (run_ / "report.html").string());
+    EXPECT_EQ(answer.status, 0) << answer.out;
+}
+
+TEST_F(Film, EveryFileSaysWhichCommandMadeIt) {
+    const std::string command = "hibi run " + scene_.string() + " -o " + run_.string() + "\n";
+    for (const char* name :
+         {"movie.mp4", "frames/000007.png", "poster.png", "strip.png", "cracks.png", "curve.png",
+          "figures/strip_print_85mm.png", "history.csv", "breaks.csv", "report.html", "run.json", "."}) {
+        const Answer answer = hibi("reproduce " + (run_ / name).string());
+        EXPECT_EQ(answer.status, 0) << name;
+        EXPECT_EQ(answer.out, command) << name;
+    }
+    EXPECT_EQ(hibi("reproduce " + scene_.string()).status, 2);
+}
+
+TEST_F(Film, ReproduceNotesThatTheSceneHasChangedSince) {
+    const fs::path scene = edited(scene_, folder_ / "changing.toml", {});
+    const fs::path folder = folder_ / "changing";
+    ASSERT_EQ(
+        hibi("run " + scene.string() + " -p spacing='4 m' --no-pictures -q -o " + folder.string()).status, 0);
+    EXPECT_EQ(hibi("reproduce " + folder.string()).out,
+              "hibi run " + scene.string() + " -p 'spacing=4 m' -o " + folder.string() + "\n");
+    edited(scene_, scene, {{"-80 MN", "-81 MN"}});
+    EXPECT_NE(hibi("reproduce " + folder.string()).out.find("is another scene by now"), std::string::npos);
+    fs::remove(scene);
+    EXPECT_NE(hibi("reproduce " + folder.string()).out.find("is not here"), std::string::npos);
 }
 
 TEST_F(Film, TheSceneAsRunGivesTheSameRun) {
     const fs::path other = folder_ / "again";
-    const Answer answer = hibi("run " + (run_ / "scene.toml").string() + " -q -o " + other.string());
+    const Answer answer = hibi("run " + (run_ / "scene.toml").string() + " -q --no-report -o " + other.string());
     ASSERT_EQ(answer.status, 0) << answer.out;
     EXPECT_EQ(prints_of(other), prints_of(run_));
 }
@@ -291,7 +322,7 @@ TEST_F(Film, ARunThatBlowsUpKeepsWhatItRecordedAndSaysWhy) {
                                    {"break_strain   = 0.1", ""},
                                    {"until    = \"separation . 0.5 s\"\n", ""},
                                    {"until = \"separation\"\n", ""}});
-    const Answer answer = hibi("run " + scene.string() + " -q -o " + folder.string());
+    const Answer answer = hibi("run " + scene.string() + " -q --no-report -o " + folder.string());
     EXPECT_EQ(answer.status, 1);
     EXPECT_TRUE(std::regex_search(answer.out, std::regex("step [0-9]+, t = .* s: .*; .*stretched")))
         << answer.out;

@@ -1,0 +1,74 @@
+#include "report/caption.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hibi {
+namespace {
+
+Topology plate() {
+    Topology t;
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 6; ++x) {
+            t.reference_position.emplace_back(x + 0.5, y + 0.5, 0);
+            t.spacing.push_back(1);
+        }
+    t.supports = {{"clamp", {0, 6, 12}, {true, true, false}}};
+    t.loads = {{"tip", "force", {5, 11, 17}, Vec3(0, -1, 0), true}};
+    return t;
+}
+
+RunSummary broken() {
+    RunSummary s;
+    s.title = "Bending & breaking";
+    s.version = "0.1.0";
+    s.scene_hash = "0123456789abcdef";
+    s.particles = 18;
+    s.bonds = 50;
+    s.broken = 7;
+    s.events.first_break = Event{.time = 2, .load = 3e6, .position = Vec3(1, 2.5, 0)};
+    s.events.peak_load = s.events.separation = Event{.time = 3, .load = 4e6};
+    s.worst_imbalance = 0.004;
+    return s;
+}
+
+TEST(Caption, TellsWhatHappenedAndHowFarToTrustIt) {
+    const Caption c = caption_of(broken(), plate(), "A plate.", "18 particles");
+    EXPECT_EQ(c.text,
+              "Bending & breaking. A plate. 18 particles. The first bond breaks at t = 2.00 s under 3.00 MN. "
+              "The body "
+              "separates at t = 3.00 s under 4.00 MN. Energy balance within 0.4 %. Computed and drawn by "
+              "hibi 0.1.0, "
+              "scene 0123456789ab.");
+    RunSummary wrong = broken();
+    wrong.trusted = false;
+    EXPECT_NE(caption_of(wrong, plate(), "", "").text.find("not to be trusted"), std::string::npos);
+}
+
+TEST(Caption, DescribesThePictureForThoseWhoCannotSeeIt) {
+    EXPECT_EQ(caption_of(broken(), plate(), "", "").alternative,
+              "A body 6 m wide and 3 m high, drawn as 18 discs. It is clamped at the left. It is loaded "
+              "downwards at "
+              "the right. The first bond breaks at the upper left; 7 of 50 bonds are broken in the end, and "
+              "the body is "
+              "in pieces.");
+}
+
+TEST(Caption, LatexShowsEveryCharacterAsItIs) {
+    EXPECT_EQ(
+        latex_escaped("50 % of a_b & {c} #1 $2 x^2 ~ \\ ν"),
+        "50 \\% of a\\_b \\& \\{c\\} \\#1 \\$2 x\\textasciicircum{}2 \\textasciitilde{} \\textbackslash{} ν");
+    const std::string text = latex_snippet(caption_of(broken(), plate(), "", ""), "plate");
+    EXPECT_NE(text.find("Bending \\& breaking"), std::string::npos);
+    EXPECT_NE(text.find("\\label{fig:plate-strip}"), std::string::npos);
+}
+
+TEST(Caption, QuartoAndMarkdownKeepQuotesAndStarsInTheirPlaces) {
+    RunSummary s = broken();
+    s.title = "A *plate* \"of\" glass";
+    const Caption c = caption_of(s, plate(), "", "");
+    EXPECT_NE(quarto_snippet(c, "x").find("{#fig-x-strip fig-alt=\"A body"), std::string::npos);
+    EXPECT_NE(markdown_snippet(c).find("A \\*plate\\*"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hibi

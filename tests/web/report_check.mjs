@@ -1,0 +1,101 @@
+// Reads report.html as a reader would, in headless Chromium: report_check.mjs REPORT [SCREENSHOTS]
+// Exit status 0 if it asks nothing of a network, complains of nothing, plays, and film, curve and keys agree.
+import { resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { inBrowser } from './browser.mjs';
+
+const [report, pictures] = process.argv.slice(2);
+await inBrowser({ width: 1280, height: 900 }, async (page, complaints) => {
+  const picture = async name => { if (pictures) await page.screenshot({ path: `${pictures}/${name}.png`, fullPage: true }); };
+  const wrong = [];
+  const expect = (holds, what) => { if (!holds) wrong.push(what); };
+  await page.emulateMedia({ colorScheme: 'light' });
+  await page.goto(pathToFileURL(resolve(report)).href);
+  await page.waitForFunction(() => document.querySelector('video').readyState >= 2, null, { timeout: 20000 });
+  const run = await page.evaluate(() => JSON.parse(document.getElementById('run').textContent));
+  const frame = () => page.evaluate(fps => Math.floor(document.querySelector('video').currentTime * fps + 1e-3), run.fps);
+  const settled = () => page.waitForFunction(() => !document.querySelector('video').seeking);
+  const readout = () => page.locator('#readout').textContent();
+  const cursor = k => page.locator('.cursor').nth(k).locator('line').getAttribute('x1').then(Number);
+  const frameAt = t => run.frames.findIndex(f => f >= t * (1 - 1e-12));
+  await picture('wide-light');
+  expect(!await page.locator('#film img').isVisible(), 'the poster stands beside the film');
+  for (const overlay of await page.locator('.cursor').all()) {
+    const boxes = await overlay.evaluate(svg => [svg, svg.parentElement.querySelector('.light svg')].map(e => e.getBoundingClientRect().toJSON()));
+    expect(['x', 'y', 'width', 'height'].every(k => Math.abs(boxes[0][k] - boxes[1][k]) < 1), 'the cursor does not lie over its curve');
+  }
+
+  // One frame further, and back, and to the end.
+  await page.locator('body').click({ position: { x: 5, y: 5 } });
+  await page.keyboard.press('Home'); await settled();
+  expect(await frame() === 0, `Home goes to frame ${await frame()}`);
+  for (const [key, expected] of [['ArrowRight', 1], ['ArrowRight', 2], ['ArrowLeft', 1], ['Shift+ArrowRight', 1 + run.fps], ['End', run.frames.length - 1]]) {
+    await page.keyboard.press(key); await settled();
+    expect(await frame() === Math.min(expected, run.frames.length - 1), `${key} goes to frame ${await frame()}, not ${expected}`);
+  }
+  // The buttons of the events and the key frames.
+  for (const button of await page.locator('button[data-time]').all()) {
+    const time = Number(await button.getAttribute('data-time'));
+    await button.click(); await settled();
+    expect(await frame() === frameAt(time), `"${await button.textContent()}" goes to frame ${await frame()}, not ${frameAt(time)}`);
+  }
+  // A click on the curve over time: half way along the axis.
+  for (const [k, place] of run.charts.entries()) {
+    const overlay = page.locator('.cursor').nth(k);
+    await overlay.scrollIntoViewIfNeeded();
+    const box = await overlay.boundingBox();
+    const view = await overlay.evaluate(svg => [svg.viewBox.baseVal.width, svg.viewBox.baseVal.height]);
+    const clickAt = async (x, y) => {
+      await page.mouse.click(box.x + x / view[0] * box.width, box.y + y / view[1] * box.height);
+      await settled();
+    };
+    const before = await readout();
+    if (place.of_time) {
+      await clickAt(place.axes[0] + place.axes[2] / 2, place.axes[1] + place.axes[3] / 2);
+      const time = (place.x[0] + place.x[1]) / 2;
+      expect(Math.abs(await frame() - frameAt(time)) <= 1, `a click at ${time} s goes to frame ${await frame()}, not ${frameAt(time)}`);
+      expect(Math.abs(await cursor(k) - (place.axes[0] + place.axes[2] / 2)) < 0.05 * place.axes[2], 'the cursor is not where the click was');
+    } else {
+      // A point of the curve: the click on it goes to its time.
+      const h = run.history, row = Math.floor(h.time.findIndex(t => t >= place.until) / 2);
+      const along = (range, v) => (v - range[0]) / (range[1] - range[0]);
+      await clickAt(place.axes[0] + place.axes[2] * along(place.x, h.displacement[row]),
+        place.axes[1] + place.axes[3] * (1 - along(place.y, h.load[row])));
+      const off = Math.abs(run.frames[await frame()] - h.time[row]);
+      expect(off < 0.05 * place.until, `a click on the curve at ${h.time[row]} s goes to ${run.frames[await frame()]} s`);
+    }
+    expect(await readout() !== before, 'the readout does not follow a click');
+  }
+  // The cursor follows the film.
+  await page.keyboard.press('Home'); await settled();
+  const start = await cursor(run.charts.length - 1);
+  await page.locator('#play').click();
+  await page.waitForTimeout(1200);
+  await page.locator('#play').click();
+  expect(await frame() > 5, 'the film does not play');
+  expect(await cursor(run.charts.length - 1) > start, 'the cursor does not follow the film');
+
+  // Themes, narrow screens, print.
+  await page.locator('#theme').click();
+  const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  expect(await background() === 'rgb(16, 18, 23)', `the dark theme is ${await background()}`);
+  await picture('wide-dark');
+  for (const width of [768, 360]) {
+    await page.setViewportSize({ width, height: 800 });
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    expect(wide <= width, `at ${width} pixels the page is ${wide} wide`);
+    const small = await page.evaluate(() => Math.min(...[...document.querySelectorAll('p, td, th, button, span, pre, figcaption, kbd')]
+      .filter(e => e.offsetParent).map(e => parseFloat(getComputedStyle(e).fontSize))));
+    expect(small >= 11, `text of ${small} pixels`);
+    await picture(`narrow-${width}`);
+  }
+  await page.setViewportSize({ width: 900, height: 1200 });
+  await page.emulateMedia({ media: 'print' });
+  expect(!await page.locator('video').isVisible() && await page.locator('#film img').isVisible(), 'print shows no poster');
+  expect(!await page.locator('#play').isVisible(), 'print shows buttons');
+  expect(await background() === 'rgb(255, 255, 255)', 'print is not white');
+  await picture('print');
+
+  wrong.push(...complaints);
+  return wrong.join('\n');
+});
