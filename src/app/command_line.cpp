@@ -19,6 +19,7 @@
 #include "app/run.hpp"
 #include "base/parallel.hpp"
 #include "scene/read.hpp"
+#include "scene/schema.hpp"
 
 namespace hibi {
 
@@ -280,6 +281,14 @@ void add_reproduce(CLI::App& app, int& status) {
     reproduce->callback([o, &status] { status = reproduce_command(*o); });
 }
 
+void add_schema(CLI::App& app, int& status) {
+    Command* schema = app.add_subcommand("schema", "Print the JSON Schema of scene files, for editors");
+    schema->callback([&status] {
+        fmt::print("{}", scene_schema());
+        status = 0;
+    });
+}
+
 void add_doctor(CLI::App& app, int& status) {
     Command* doctor = app.add_subcommand("doctor", "What works on this machine, and what to install");
     const auto json = options_of<bool>();
@@ -295,8 +304,9 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep,
-                           add_converge, add_check, add_preview, add_new, add_reproduce, add_doctor})
+    for (const auto add :
+         {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep, add_converge,
+          add_check, add_preview, add_new, add_reproduce, add_schema, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
 
+#include "app/schema_line.hpp"
 #include "scene/suggest.hpp"
 
 namespace hibi {
@@ -72,6 +74,13 @@ std::string title_of(const std::string& text) {
     return close == std::string::npos ? "" : text.substr(open + 1, close - open - 1);
 }
 
+/// The file of the program that runs.
+std::filesystem::path this_program() {
+    std::error_code error;
+    const std::filesystem::path link = std::filesystem::read_symlink("/proc/self/exe", error);
+    return error ? std::filesystem::path(program_invocation_name) : link;  // a bare chroot has no /proc
+}
+
 }  // namespace
 
 int new_command(const NewOptions& options) {
@@ -101,7 +110,7 @@ int new_command(const NewOptions& options) {
     if (std::filesystem::exists(file))
         return refuse(fmt::format("{} exists already; give another name", file.string()));
     std::ofstream out(file, std::ios::binary);
-    out << text;
+    out << with_schema_line(text, schema_file(this_program()));
     out.close();
     if (!out) throw std::runtime_error(fmt::format("cannot write {}", file.string()));
     fmt::print("{}\n", file.string());

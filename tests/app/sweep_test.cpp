@@ -46,10 +46,16 @@ TEST(Process, TellsHowAProgramEnded) {
 TEST(InParallel, DoesEverythingOnceAndTellsOfTheFirstError) {
     std::vector<int> done(100);
     int told = 0;
-    in_parallel(100, 3, [&](int k) { ++done[k]; }, [&] { ++told; });
+    in_parallel(
+        100, 3, [&](int k) { ++done[k]; }, [&] { ++told; });
     EXPECT_EQ(done, std::vector<int>(100, 1));
     EXPECT_EQ(told, 100);
-    EXPECT_THROW(in_parallel(5, 2, [](int k) { if (k == 1) throw std::runtime_error("no"); }, [] {}),
+    EXPECT_THROW(in_parallel(
+                     5, 2,
+                     [](int k) {
+                         if (k == 1) throw std::runtime_error("no");
+                     },
+                     [] {}),
                  std::runtime_error);
 }
 

@@ -15,7 +15,8 @@ StudyRun run(double spacing, double load, const std::string& criterion = {}) {
     r.folder = "out/x";
     RunSummary s;
     s.particles = static_cast<int>(800 / spacing / spacing);
-    if (load > 0) s.events.first_break = s.events.peak_load = Event{.time = 1, .load = load, .position = Vec3(1, 2, 0)};
+    if (load > 0)
+        s.events.first_break = s.events.peak_load = Event{.time = 1, .load = load, .position = Vec3(1, 2, 0)};
     s.seconds["solve"] = 1 / spacing;
     r.summary = s;
     return r;
@@ -40,7 +41,8 @@ TEST(Study, CsvAndJsonHoldEveryRunAndLeaveEmptyWhatIsNotKnown) {
     const std::vector<StudyRun> runs{run(2, 4e7), run(1, 0), failed(0.5)};
     const std::vector<std::string> csv = lines(study_csv(runs, "made by x"));
     ASSERT_EQ(csv.size(), 5u);
-    EXPECT_TRUE(csv[0].starts_with("# spacing (m), status, first_break_time (s), first_break_load (N)")) << csv[0];
+    EXPECT_TRUE(csv[0].starts_with("# spacing (m), status, first_break_time (s), first_break_load (N)"))
+        << csv[0];
     EXPECT_TRUE(csv[0].ends_with("; made by x"));
     EXPECT_TRUE(csv[1].starts_with("spacing,status,first_break_time,first_break_load,")) << csv[1];
     EXPECT_TRUE(csv[2].starts_with("2,done,1,40000000,")) << csv[2];
@@ -66,11 +68,14 @@ TEST(Study, WarnsWhereTheFailureLoadMovesByMoreThanFivePerCent) {
 }
 
 TEST(Study, JudgesEachCriterionByItself) {
-    const Convergence c = judge_convergence({run(2, 4e7, "fixed strain"), run(1, 3e7, "fixed strain"),
-                                             run(2, 4e7, "fracture energy"), run(1, 4.1e7, "fracture energy")});
+    const Convergence c =
+        judge_convergence({run(2, 4e7, "fixed strain"), run(1, 3e7, "fixed strain"),
+                           run(2, 4e7, "fracture energy"), run(1, 4.1e7, "fracture energy")});
     EXPECT_TRUE(c.warns);
-    EXPECT_NE(c.caption.find("With fixed strain the load at first break moves by −25.0 %"), std::string::npos);
-    EXPECT_NE(c.caption.find("With fracture energy the load at first break moves by +2.5 %"), std::string::npos);
+    EXPECT_NE(c.caption.find("With fixed strain the load at first break moves by −25.0 %"),
+              std::string::npos);
+    EXPECT_NE(c.caption.find("With fracture energy the load at first break moves by +2.5 %"),
+              std::string::npos);
 }
 
 TEST(Study, TheChartHasALinePerSecondParameterAndRisingValues) {
