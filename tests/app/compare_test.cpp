@@ -118,7 +118,7 @@ TEST_F(Compare, AlignedClocksAgreeAtTheEvent) {
     o.align = EventName::first_break;
     make_comparison(o);
     const Json frames = Json::parse(std::ifstream(folder_.path() / "out/frames.json"));
-    EXPECT_EQ(frames.front()["time"], -RecordedCantilever::first_break);
+    EXPECT_EQ(frames.front()["time"], -RecordedCantilever().first_break);
     for (const Json& frame : frames)
         if (frame["event"] == "first_break") {
             EXPECT_GE(frame["time"].get<double>(), 0);
@@ -138,7 +138,6 @@ TEST_F(Compare, RefusesWhatCannotBeCompared) {
     CompareOptions align = options({a, b});
     align.align = EventName::separation;
     EXPECT_THROW(make_comparison(align), std::invalid_argument);
-    EXPECT_EQ(compare_command(align), 2);
     fs::create_directories(folder_.path() / "out");
     std::ofstream(folder_.path() / "out/precious.txt") << "x";
     EXPECT_THROW(make_comparison(options({a, b})), std::runtime_error);
