@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "image/axis.hpp"
 #include "image/canvas.hpp"
@@ -55,6 +56,17 @@ struct Tick {
     std::string text;
 };
 
+/// The values themselves, where they are so few that each can stand at its axis; else nothing.
+std::vector<double> few(const std::vector<const std::vector<double>*>& all) {
+    constexpr std::size_t most = 6;
+    std::set<double> values;
+    for (const std::vector<double>* list : all)
+        for (const double v : *list)
+            if (shown(v, true)) values.insert(v);
+    if (values.size() > most) return {};
+    return {values.begin(), values.end()};
+}
+
 /// An axis, ready to be drawn.
 struct Axis {
     std::array<double, 2> range;
@@ -67,8 +79,8 @@ struct Axis {
           scale(scale_for(std::max(std::abs(range[0]), std::abs(range[1])) / 1.05, axis.unit)),
           title(with_unit(axis.title, scale)) {
         if (axis.logarithmic) {
-            for (const double v : log_ticks(range[0], range[1]))
-                ticks.push_back({v, fmt::format("{:g}", v * scale.factor)});
+            for (const double v : few(values).empty() ? log_ticks(range[0], range[1]) : few(values))
+                ticks.push_back({v, fmt::format("{:.3g}", v * scale.factor)});
             return;
         }
         const Ticks round = round_ticks(range[0] * scale.factor, range[1] * scale.factor, most);
@@ -120,7 +132,7 @@ class ChartDrawing {
         place_.x_logarithmic = chart.x.logarithmic;
         place_.y_logarithmic = chart.y.logarithmic;
         foot_ = place_.axes.y + place_.axes.height;
-        note_ = type.wrapped(chart.note, plain(colours_.faint_text), width, 4);
+        note_ = type.wrapped(chart.note, plain(colours_.faint_text), width, 8);
         height_ = foot_ + 3.2 * text_ + 1.4 * text_ * static_cast<double>(note_.size()) - y;
     }
 
