@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
 
+#include "app/process.hpp"
 #include "app/schema_line.hpp"
 #include "scene/suggest.hpp"
 
@@ -72,13 +72,6 @@ std::string title_of(const std::string& text) {
     const std::size_t open = key == std::string::npos ? key : text.find('"', key);
     const std::size_t close = open == std::string::npos ? open : text.find('"', open + 1);
     return close == std::string::npos ? "" : text.substr(open + 1, close - open - 1);
-}
-
-/// The file of the program that runs.
-std::filesystem::path this_program() {
-    std::error_code error;
-    const std::filesystem::path link = std::filesystem::read_symlink("/proc/self/exe", error);
-    return error ? std::filesystem::path(program_invocation_name) : link;  // a bare chroot has no /proc
 }
 
 }  // namespace
