@@ -43,14 +43,6 @@ Image strip_image(const Scene& scene, const RunReader& run, const FigureStyle& s
     return make_sheet(panels, "", columns, style);
 }
 
-Image cracks_image(const Scene& scene, const RunReader& run, const FigureStyle& style,
-                   const RendererOptions& renderer) {
-    HistoryDrawing drawing(scene, run, style.theme, style.width(), style.text(), renderer);
-    FigureScales scales{.colours = drawing.colours(), .pixels_per_metre = drawing.pixels_per_metre()};
-    if (!scales.colours) scales.note = std::string("No bond broke.");
-    return with_scales(drawing.draw(), scales, style);
-}
-
 /// All figures of a run in one style, as NAME + suffix. Returns the files written.
 std::vector<fs::path> write_figures(const Scene& scene, const RunReader& run, const FigureStyle& style,
                                     const fs::path& folder, const std::string& suffix,
@@ -76,6 +68,14 @@ std::string suffix_of(const FigureStyle& style) {
 }
 
 }  // namespace
+
+Image cracks_image(const Scene& scene, const RunReader& run, const FigureStyle& style,
+                   const RendererOptions& renderer) {
+    HistoryDrawing drawing(scene, run, style.theme, style.width(), style.text(), renderer);
+    FigureScales scales{.colours = drawing.colours(), .pixels_per_metre = drawing.pixels_per_metre()};
+    if (!scales.colours) scales.note = std::string("No bond broke.");
+    return with_scales(drawing.draw(), scales, style);
+}
 
 void draw_figures(const Scene& scene, const fs::path& folder, const RendererOptions& renderer) {
     const RunReader run(folder);

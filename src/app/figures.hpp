@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "image/figure.hpp"
+#include "image/image.hpp"
+#include "record/run_folder.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
 
@@ -14,6 +17,10 @@ namespace hibi {
 /// print in both usual widths, NAME_print_85mm.png and so on. Pictures of an earlier drawing are removed
 /// first.
 void draw_figures(const Scene& scene, const std::filesystem::path& folder, const RendererOptions& renderer);
+
+/// The crack history with its scales.
+Image cracks_image(const Scene& scene, const RunReader& run, const FigureStyle& style,
+                   const RendererOptions& renderer);
 
 struct FiguresOptions {
     std::filesystem::path folder;                   ///< of the run

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
+#include "app/figures.hpp"
 #include "app/key_frames.hpp"
+#include "base/units.hpp"
 #include "image/png.hpp"
 #include "record/files.hpp"
 #include "report/caption.hpp"
@@ -17,9 +21,24 @@ namespace fs = std::filesystem;
 
 // Pictures of the page, for screens with two pixels per point (pixels).
 constexpr int key_frame_width = 560;
+constexpr double cracks_dpi = 180;
 constexpr double key_frame_text = 22;
 
 std::string read_if_there(const fs::path& file) { return fs::exists(file) ? read_file(file) : ""; }
+
+/// What a caption has to tell beyond what stands on every frame.
+std::string setting(const Scene& scene) {
+    std::string text;
+    std::set<double> spacings;
+    for (const BodySpec& body : scene.bodies) spacings.insert(body.spacing(Vec3::Zero(), 0));
+    for (const double spacing : spacings)
+        text += " · particles " + format_si(spacing, "m", 3, true) + " apart";
+    for (const Material& m : scene.materials) {
+        if (m.break_strain) text += fmt::format(" · bonds break at {:g} % strain", 100 * *m.break_strain);
+        if (m.fracture_energy) text += fmt::format(" · fracture energy {:g} J/m²", *m.fracture_energy);
+    }
+    return text;
+}
 
 std::string png_bytes(const Image& image) {
     const std::vector<unsigned char> bytes = encode_png(image, {.small = true});
@@ -31,7 +50,8 @@ std::string png_bytes(const Image& image) {
 void write_report(const Scene& scene, const fs::path& folder, const RendererOptions& renderer) {
     const RunReader run(folder);
     const std::string description = describe(scene, run.topology());
-    const Caption caption = caption_of(run.summary(), run.topology(), scene.about, description);
+    const Caption caption =
+        caption_of(run.summary(), run.topology(), scene.about, description + setting(scene));
     PageContent page{.summary = run.summary(),
                      .about = scene.about,
                      .description = description,
@@ -39,16 +59,24 @@ void write_report(const Scene& scene, const fs::path& folder, const RendererOpti
                      .scene = read_if_there(folder / "scene.toml"),
                      .caption = caption.alternative,
                      .poster = read_if_there(folder / "poster.png"),
-                     .cracks = {},
+                     .cracks_light = {},
+                     .cracks_dark = {},
                      .film = read_if_there(folder / "movie.mp4"),
                      .frame_times = {},
-                     .fps = scene.movie.fps,
+                     .fps = run.summary().fps > 0 ? run.summary().fps : scene.movie.fps,
                      .key_frames = {}};
-    if (!page.film.empty()) page.frame_times = film_style(scene, run).plan.time;
-    StillDrawing stills(scene, run, scene.view.theme, key_frame_width, key_frame_text, renderer);
+    for (const FrameInfo& frame : read_frames(folder)) page.frame_times.push_back(frame.time);
+    if (page.frame_times.empty()) page.film.clear();  // nobody knows what it shows when
     for (const KeyMoment& m : key_moments(scene, run))
-        page.key_frames.push_back({m.time, m.label, m.detail, png_bytes(stills.draw(m.time))});
-    if (run.summary().broken > 0) page.cracks = read_if_there(folder / "cracks.png");
+        page.key_frames.push_back({m.time, m.label, m.detail, {}, {}});
+    for (const char* theme : {"light", "dark"}) {
+        const bool dark = theme == std::string("dark");
+        StillDrawing stills(scene, run, theme, key_frame_width, key_frame_text, renderer);
+        for (PageKeyFrame& k : page.key_frames) (dark ? k.dark : k.light) = png_bytes(stills.draw(k.time));
+        if (run.summary().broken == 0) continue;
+        const FigureStyle style{.theme = theme, .dpi = cracks_dpi};
+        (dark ? page.cracks_dark : page.cracks_light) = png_bytes(cracks_image(scene, run, style, renderer));
+    }
     write_file(folder / "report.html", report_page(page));
 
     const std::string label = fs::absolute(folder).lexically_normal().filename().string();

@@ -142,11 +142,14 @@ void draw_with_progress(const Scene& scene, const fs::path& folder, DrawOptions 
     options.progress = [&](int done, int of) { progress.at(static_cast<double>(done) / of, done); };
     const DrawResult drawn = draw_run(scene, folder, options);
     summary.frames = drawn.frames;
+    summary.fps = drawn.frames > 0 ? scene.movie.fps : 0;
     summary.seconds["draw"] = drawn.draw_seconds;
     summary.seconds["encode"] = drawn.encode_seconds;
     if (!options.report) return;
     const Stopwatch figures;
     draw_figures(scene, folder, options.renderer);
+    // The report reads there what is said of the film.
+    if (fs::exists(folder / "run.json")) write_summary(folder, summary);
     write_report(scene, folder, options.renderer);
     summary.seconds["figures"] = figures.seconds();
 }

@@ -18,6 +18,7 @@ struct RunSummary {
     std::map<std::string, std::string> parameters;  ///< what -p said, as it was written
     std::string command;                            ///< that made the run, ready for a shell
     int particles = 0, bonds = 0, broken = 0, frames = 0, threads = 0;
+    int fps = 0;  ///< of the film; 0 where none is drawn
     int dimension = 2;  ///< components of a position in run.json
     std::int64_t steps = 0;
     double time_step = 0, end_time = 0;
@@ -71,6 +72,8 @@ struct FrameInfo {
     std::string sha256;                  ///< pixel_hash of the frame
 };
 void write_frames(const std::filesystem::path& folder, const std::vector<FrameInfo>& frames);
+/// Empty where there is no frames.json. Throws std::runtime_error for one that is damaged.
+std::vector<FrameInfo> read_frames(const std::filesystem::path& folder);
 
 struct StateInfo {
     double time = 0;

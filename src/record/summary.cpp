@@ -71,6 +71,7 @@ Json to_json(const RunSummary& s) {
           {"broken", s.broken},
           {"steps", s.steps},
           {"frames", s.frames}}},
+        {"fps", s.fps},
         {"dimension", s.dimension},
         {"time_step", s.time_step},
         {"end_time", s.end_time},
@@ -104,6 +105,7 @@ RunSummary from_json(const Json& json) {
     counts.at("broken").get_to(s.broken);
     counts.at("steps").get_to(s.steps);
     counts.at("frames").get_to(s.frames);
+    s.fps = json.value("fps", 0);
     json.at("dimension").get_to(s.dimension);
     json.at("time_step").get_to(s.time_step);
     json.at("end_time").get_to(s.end_time);
@@ -151,6 +153,25 @@ void write_frames(const std::filesystem::path& folder, const std::vector<FrameIn
                         {"broken", frame.broken},
                         {"sha256", frame.sha256}});
     write_file(folder / "frames.json", list.dump(1) + "\n");
+}
+
+std::vector<FrameInfo> read_frames(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "frames.json";
+    std::vector<FrameInfo> frames;
+    if (!std::filesystem::exists(file)) return frames;
+    const std::string text = read_file(file);
+    try {
+        for (const Json& row : Json::parse(text)) {
+            FrameInfo frame{.file = row.at("file"), .time = row.at("time"), .sha256 = row.at("sha256")};
+            if (!row.at("event").is_null()) frame.event = row.at("event").get<std::string>();
+            row.at("events").get_to(frame.events);
+            row.at("broken").get_to(frame.broken);
+            frames.push_back(frame);
+        }
+    } catch (const Json::exception& error) {
+        throw std::runtime_error(fmt::format("{}: not a list of frames: {}", file.string(), error.what()));
+    }
+    return frames;
 }
 
 }  // namespace hibi

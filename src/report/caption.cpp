@@ -37,7 +37,7 @@ std::string replaced(std::string text, const std::map<char, std::string>& by) {
 /// Characters that Markdown would take for its own.
 std::string markdown_escaped(const std::string& text) {
     std::map<char, std::string> by;
-    for (const char c : std::string("\\`*_{}[]<>#|$")) by[c] = std::string("\\") + c;
+    for (const char c : std::string("\\`*_{}[]<>#|$~^@&")) by[c] = std::string("\\") + c;
     return replaced(text, by);
 }
 
@@ -106,41 +106,87 @@ std::string caption_markdown(const Caption& c, const std::string& title) {
 }
 
 std::string latex_escaped(const std::string& text) {
-    return replaced(text, {{'\\', "\\textbackslash{}"},
-                           {'~', "\\textasciitilde{}"},
-                           {'^', "\\textasciicircum{}"},
-                           {'_', "\\_"},
-                           {'%', "\\%"},
-                           {'&', "\\&"},
-                           {'#', "\\#"},
-                           {'$', "\\$"},
-                           {'{', "\\{"},
-                           {'}', "\\}"}});
+    std::string result = replaced(text, {{'<', "\\textless{}"},
+                                         {'>', "\\textgreater{}"},
+                                         {'|', "\\textbar{}"},
+                                         {'"', "\\textquotedbl{}"},
+                                         {'\n', " "},
+                                         {'\\', "\\textbackslash{}"},
+                                         {'~', "\\textasciitilde{}"},
+                                         {'^', "\\textasciicircum{}"},
+                                         {'_', "\\_"},
+                                         {'%', "\\%"},
+                                         {'&', "\\&"},
+                                         {'#', "\\#"},
+                                         {'$', "\\$"},
+                                         {'{', "\\{"},
+                                         {'}', "\\}"}});
+    // The characters beyond ASCII that our own words use.
+    for (const auto& [from, to] : {std::pair{"ν", "$\\nu$"},
+                                   {"·", "\\textperiodcentered{}"},
+                                   {"²", "$^2$"},
+                                   {"−", "$-$"},
+                                   {"×", "$\\times$"},
+                                   {"µ", "\\textmu{}"}})
+        for (std::size_t at = 0; (at = result.find(from, at)) != std::string::npos;)
+            result.replace(at, std::string_view(from).size(), to);
+    return result;
 }
 
+namespace {
+
+/// The figures of a run's folder, and what each of them shows.
+struct Shown {
+    const char *name, *words, *alternative;
+};
+constexpr Shown figures[] = {
+    {"strip", "Key frames.", ""},
+    {"cracks", "Every broken bond in the unloaded body, coloured by its time of breaking.", ""},
+    {"curve", "Load over displacement, and energies over time.",
+     "Curves of the load over the displacement and of the energies over time, with the events marked."}};
+
+std::string alternative_of(const Shown& figure, const Caption& c) {
+    return *figure.alternative ? figure.alternative : c.alternative;
+}
+
+/// Letters, digits and hyphens: what every program takes for a label.
+std::string label_of(const std::string& text) {
+    std::string label;
+    for (const char c : text) label += std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
+    return label;
+}
+
+}  // namespace
+
 std::string latex_snippet(const Caption& c, const std::string& label) {
-    // The pictures for print are as wide as a page (170 mm), and shrink to the column.
-    std::string text = "% \\usepackage{graphicx}; for LuaLaTeX or XeLaTeX, or with utf8 input\n";
-    for (const char* name : {"strip", "cracks", "curve"})
+    std::string text =
+        "% \\usepackage{graphicx}, and \\usepackage{textcomp} in old distributions; the film lies beside: "
+        "movie.mp4\n";
+    for (const Shown& figure : figures)
         text += fmt::format(
-            "\\begin{{figure}}\n  \\centering\n  \\includegraphics[width=\\linewidth]"
-            "{{figures/{}_print_170mm.png}}\n  \\caption{{{}}}\n  \\label{{fig:{}-{}}}\n"
+            "\\begin{{figure}}\n  \\centering\n  % {}\n  \\includegraphics[width=\\linewidth]"
+            "{{figures/{}_print_170mm.png}}\n  \\caption{{{} {}}}\n  \\label{{fig:{}-{}}}\n"
             "\\end{{figure}}\n\n",
-            name, latex_escaped(c.text), label, name);
+            latex_escaped(alternative_of(figure, c)), figure.name, latex_escaped(figure.words),
+            latex_escaped(c.text), label_of(label), figure.name);
     return text;
 }
 
 std::string quarto_snippet(const Caption& c, const std::string& label) {
     std::string text = fmt::format("{{{{< video movie.mp4 title=\"{}\" >}}}}\n\n", quoted(c.alternative));
-    for (const char* name : {"strip", "cracks", "curve"})
-        text += fmt::format("![{}](figures/{}_print_170mm.png){{#fig-{}-{} fig-alt=\"{}\"}}\n\n",
-                            markdown_escaped(c.text), name, label, name, quoted(c.alternative));
+    for (const Shown& figure : figures)
+        text += fmt::format("![{} {}](figures/{}_print_170mm.png){{#fig-{}-{} fig-alt=\"{}\"}}\n\n",
+                            figure.words, markdown_escaped(c.text), figure.name, label_of(label), figure.name,
+                            quoted(alternative_of(figure, c)));
     return text;
 }
 
 std::string markdown_snippet(const Caption& c) {
-    return fmt::format("![{}](strip.png)\n\n*{}*\n\n[Film](movie.mp4) · [Report](report.html)\n",
-                       markdown_escaped(c.alternative), markdown_escaped(c.text));
+    std::string text = fmt::format("[![{}](poster.png)](movie.mp4)\n\n", markdown_escaped(c.alternative));
+    for (const Shown& figure : figures)
+        text += fmt::format("![{}]({}.png)\n\n*{} {}*\n\n", markdown_escaped(alternative_of(figure, c)),
+                            figure.name, figure.words, markdown_escaped(c.text));
+    return text + "[Film](movie.mp4) · [Report](report.html)\n";
 }
 
 }  // namespace hibi

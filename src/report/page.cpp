@@ -137,10 +137,12 @@ Json run_json(const PageContent& c, const std::vector<Chart>& charts, const std:
     const bool loaded = !c.history.load_names.empty();
     Json time = Json::array(), load = Json::array(), displacement = Json::array(), broken = Json::array();
     const std::size_t stride = std::max<std::size_t>(1, rows.size() / most_rows);
+    std::size_t breaking = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k) breaking += rows[k].broken != rows[k - 1].broken;
     double load_max = 0;
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        // Rows at which bonds broke stay: there the curve has its corners.
-        const bool breaks = k > 0 && rows[k].broken != rows[k - 1].broken;
+        // Rows at which bonds broke stay, unless they are many: there the curve has its corners.
+        const bool breaks = breaking <= most_rows / 3 && k > 0 && rows[k].broken != rows[k - 1].broken;
         if (k % stride != 0 && k + 1 != rows.size() && !breaks) continue;
         time.push_back(rows[k].time);
         broken.push_back(rows[k].broken);
@@ -203,14 +205,21 @@ std::string charts_html(const std::vector<Chart>& charts, std::vector<ChartPlace
     return text;
 }
 
+/// The picture that suits the theme.
+std::string in_both_themes(const std::string& light, const std::string& dark, const char* alternative) {
+    return fmt::format(
+        "<img class=\"light\" alt=\"{0}\" src=\"{1}\"><img class=\"dark\" alt=\"{0}\" src=\"{2}\">",
+        alternative, data_uri("image/png", light), data_uri("image/png", dark));
+}
+
 std::string film_html(const PageContent& c) {
     const std::string alternative = escaped(c.caption);
     std::string text = "<figure class=\"film\" id=\"film\">\n";
     if (!c.film.empty())
         text += fmt::format(
-            "<video muted playsinline controls preload=\"auto\" aria-label=\"{}\" poster=\"{}\" "
+            "<video muted playsinline controls preload=\"auto\" aria-label=\"{}\" "
             "src=\"{}\"></video>\n",
-            alternative, data_uri("image/png", c.poster), data_uri("video/mp4", c.film));
+            alternative, data_uri("video/mp4", c.film));
     if (!c.poster.empty())
         text += fmt::format("<img class=\"{}\" alt=\"{}\" src=\"{}\">\n", c.film.empty() ? "" : "only-print",
                             alternative, data_uri("image/png", c.poster));
@@ -220,7 +229,7 @@ std::string film_html(const PageContent& c) {
         if (*event)
             text +=
                 fmt::format("<button type=\"button\" data-time=\"{}\">{}</button>\n", (*event)->time, name);
-    text += "<output id=\"readout\"></output>\n</div>\n";
+    text += "<output id=\"readout\" aria-live=\"off\"></output>\n</div>\n";
     if (!c.film.empty())
         text +=
             "<p class=\"keys faint\"><kbd>Space</kbd> plays and pauses, <kbd>←</kbd> <kbd>→</kbd> go one "
@@ -251,30 +260,35 @@ std::string report_page(const PageContent& c) {
     page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
     page += fmt::format("<meta name=\"generator\" content=\"hibi {}\">\n", escaped(provenance.version));
     page += "<link rel=\"icon\" href=\"data:,\">\n";  // or a browser asks for one
-    page += fmt::format("<style>\n{}</style>\n</head>\n<body>\n", page_style);
+    page += fmt::format(
+        "<script>document.documentElement.dataset.theme = "
+        "matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';</script>\n"
+        "<style>\n{}</style>\n</head>\n<body>\n",
+        page_style);
     page += fmt::format("<header><div><h1>{}</h1>\n", escaped(s.title));
     if (!c.about.empty()) page += fmt::format("<p class=\"faint\">{}</p>", escaped(c.about));
     page +=
         "</div><button id=\"theme\" type=\"button\" aria-label=\"Light or "
         "dark\">◐</button></header>\n<main>\n";
     page += fmt::format("<p class=\"outcome\">{}</p>\n", escaped(outcome(s)));
-    page += film_html(c);
-    if (!curves.empty()) page += "<h2>Curves</h2>\n<div class=\"charts\">\n" + curves + "</div>\n";
+    page += "<div class=\"stage\"><div>\n" + film_html(c) + "</div>\n";
+    if (!curves.empty())
+        page += "<section class=\"charts\" aria-label=\"Curves\">\n" + curves + "</section>\n";
+    page += "</div>\n";
     if (!c.key_frames.empty()) {
         page += "<h2>Key frames</h2>\n<ul class=\"strip\">\n";
         for (const PageKeyFrame& k : c.key_frames)
             page += fmt::format(
-                "<li><button class=\"key\" type=\"button\" data-time=\"{}\"><img alt=\"\" "
-                "src=\"{}\"><strong>{}</strong>"
+                "<li><button class=\"key\" type=\"button\" data-time=\"{}\">{}<strong>{}</strong>"
                 "<span class=\"faint\">{}</span></button></li>\n",
-                k.time, data_uri("image/png", k.png), escaped(k.label), escaped(k.detail));
+                k.time, in_both_themes(k.light, k.dark, ""), escaped(k.label), escaped(k.detail));
         page += "</ul>\n";
     }
-    if (!c.cracks.empty())
+    if (!c.cracks_light.empty())
         page += fmt::format(
-            "<h2>Crack history</h2>\n<figure class=\"cracks\"><img alt=\"Each broken bond in the unloaded "
-            "body, coloured by its time of breaking\" src=\"{}\"></figure>\n",
-            data_uri("image/png", c.cracks));
+            "<h2>Crack history</h2>\n<figure class=\"cracks\">{}</figure>\n",
+            in_both_themes(c.cracks_light, c.cracks_dark,
+                           "Each broken bond in the unloaded body, coloured by its time of breaking"));
     page += "<h2>Results</h2>\n" + verdict(s);
     for (const std::string& warning : s.warnings)
         page += fmt::format("<p class=\"warning\"><strong>Warning:</strong> {}</p>\n", escaped(warning));

@@ -10,7 +10,7 @@ namespace hibi {
 struct PageKeyFrame {
     double time = 0;  ///< simulated (s)
     std::string label, detail;
-    std::string png;  ///< bytes
+    std::string light, dark;  ///< PNG, for either theme
 };
 
 /// Everything a report shows. Pictures and film are bytes, since the page is one file.
@@ -21,7 +21,8 @@ struct PageContent {
     History history;
     std::string scene;  ///< scene.toml
     std::string caption;
-    std::string poster, cracks;       ///< PNG; empty: left out
+    std::string poster;                     ///< PNG; empty: left out
+    std::string cracks_light, cracks_dark;  ///< PNG, for either theme; empty: left out
     std::string film;                 ///< MP4; empty: the poster stands in its place
     std::vector<double> frame_times;  ///< simulated time of each frame of the film (s)
     int fps = 25;

@@ -8,7 +8,6 @@
   const root = document.documentElement;
   const dark = window.matchMedia('(prefers-color-scheme: dark)');
   const setTheme = name => { root.dataset.theme = name; };
-  setTheme(dark.matches ? 'dark' : 'light');
   dark.addEventListener('change', e => setTheme(e.matches ? 'dark' : 'light'));
   document.getElementById('theme').addEventListener('click',
     () => setTheme(root.dataset.theme === 'dark' ? 'light' : 'dark'));
@@ -101,6 +100,15 @@
         'ArrowRight': () => step(e.shiftKey ? run.fps : 1), 'ArrowLeft': () => step(e.shiftKey ? -run.fps : -1),
         '.': () => step(1), ',': () => step(-1), 'Home': () => step(-last), 'End': () => step(last) };
       if (actions[e.key] && actions[e.key]() !== false) e.preventDefault();
+    });
+  }
+  if (!video) {  // the curves alone: a hundredth of the run at a time
+    const first = h.time[0], end = h.time[h.time.length - 1];
+    document.addEventListener('keydown', e => {
+      const to = { ArrowRight: now + (end - first) / 100, ArrowLeft: now - (end - first) / 100, Home: first, End: end }[e.key];
+      if (to === undefined || e.ctrlKey || e.metaKey || e.altKey) return;
+      go(Math.min(end, Math.max(first, to)));
+      e.preventDefault();
     });
   }
   for (const key of keys)

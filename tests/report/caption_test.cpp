@@ -56,7 +56,7 @@ TEST(Caption, DescribesThePictureForThoseWhoCannotSeeIt) {
 TEST(Caption, LatexShowsEveryCharacterAsItIs) {
     EXPECT_EQ(
         latex_escaped("50 % of a_b & {c} #1 $2 x^2 ~ \\ ν"),
-        "50 \\% of a\\_b \\& \\{c\\} \\#1 \\$2 x\\textasciicircum{}2 \\textasciitilde{} \\textbackslash{} ν");
+        "50 \\% of a\\_b \\& \\{c\\} \\#1 \\$2 x\\textasciicircum{}2 \\textasciitilde{} \\textbackslash{} $\\nu$");
     const std::string text = latex_snippet(caption_of(broken(), plate(), "", ""), "plate");
     EXPECT_NE(text.find("Bending \\& breaking"), std::string::npos);
     EXPECT_NE(text.find("\\label{fig:plate-strip}"), std::string::npos);

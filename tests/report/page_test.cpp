@@ -50,8 +50,8 @@ nlohmann::json data_of(const std::string& page) {
 
 TEST(ReportPage, NothingOfTheSceneBecomesMarkup) {
     const std::string page = report_page(content());
-    EXPECT_EQ(count(page, "<script"), 2u);
-    EXPECT_EQ(count(page, "</script>"), 2u);
+    EXPECT_EQ(count(page, "<script"), 3u);
+    EXPECT_EQ(count(page, "</script>"), 3u);
     EXPECT_EQ(page.find("<b>plate"), std::string::npos);
     EXPECT_NE(page.find("A &lt;b&gt;plate&lt;/b&gt; &amp; more"), std::string::npos);
     EXPECT_NE(page.find("&lt;1 m&gt;"), std::string::npos);
