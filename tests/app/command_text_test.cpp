@@ -77,9 +77,7 @@ TEST(CommandText, OfTheProgramIsInEveryScriptAndInTheManual) {
                 EXPECT_NE(completion_script(*app, "fish").find(" -l " + name.substr(2)), std::string::npos)
                     << label;
             }
-            if (name != "--help") {
-                EXPECT_NE(manual.find(name), std::string::npos) << label;
-            }
+            EXPECT_TRUE(name == "--help" || manual.find(name) != std::string::npos) << label;
         }
     }
 }
