@@ -1,0 +1,39 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "image/polyline.hpp"
+
+namespace hibi {
+
+/// Room for labels in an area that lines and other labels share.
+class FreePlaces {
+ public:
+    /// Labels keep the distance `clear` from everything, the area's edges included.
+    FreePlaces(const PixelRect& area, double clear) : area_(area), clear_(clear) {}
+
+    void take(const Polyline& line);
+    void take(const PixelRect& box) { boxes_.push_back(box); }
+
+    /// The free place for a label of that size which is nearest to a line from `from` to `to` (a point: both
+    /// the same), but not nearer than `gap`. Of equals the one at the right, higher up.
+    std::optional<PixelRect> nearest(const Point& from, const Point& to, double width, double height,
+                                     double gap) const;
+
+ private:
+    bool is_free(const PixelRect& box) const;
+
+    PixelRect area_;
+    double clear_;
+    std::vector<std::array<Point, 2>> lines_;
+    std::vector<PixelRect> boxes_;
+};
+
+/// From the line from `from` to `to`, upright or a point, to the box.
+struct Way {
+    Point begin{}, end{};
+    double length = 0;
+};
+Way way_to(const PixelRect& box, const Point& from, const Point& to);
+
+}  // namespace hibi
