@@ -20,7 +20,7 @@ class ChartScale {
     /// Reaches a share of `beyond` further than the values.
     ChartScale(const ChartAxis& axis, const std::vector<double>& values, double beyond);
 
-    double share(double value) const;                              ///< 0 at the lower end, 1 at the upper
+    double share(double value) const { return axis_share(range_, logarithmic_, value); }
     const std::array<double, 2>& range() const { return range_; }  ///< SI
     const std::string& title() const { return title_; }
     bool logarithmic() const { return logarithmic_; }
