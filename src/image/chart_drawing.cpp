@@ -10,8 +10,9 @@ namespace {
 constexpr double mm = 72 / 25.4;
 constexpr double height_share = 0.6, most_height = 75 * mm;  // of the axes; a share of the whole width
 constexpr double line_width = 1.1, thin_line = 0.5, dot = 1.7, mark_dot = 2.1;
-constexpr double tolerance = 0.1;         // what nobody sees on paper
-constexpr double row = 1.45;              // from line to line, in text sizes
+constexpr double tolerance = 0.03;  // what nobody sees on paper
+constexpr double row = 1.45;        // from line to line, in text sizes
+constexpr double flag_row = 1.25, flag_gap = 0.3;
 constexpr double most_name_share = 0.27;  // of the width, for names at the ends of lines
 constexpr double ends_at_right = 0.93;    // of the axis
 
@@ -77,7 +78,11 @@ ChartDrawing::ChartDrawing(const Chart& chart, double left, double width, const 
             break;
         }
     }
-    head_ = (chart.title.empty() ? 0 : 1.9 * text_) + legend_height_ + 2 * text_;
+    lay_out_flags();
+    int rows = title_row_;
+    for (const Flag& flag : flags_) rows = std::max(rows, flag.row);
+    above_ = (2 + flag_row * rows) * text_;
+    head_ = (chart.title.empty() ? 0 : 1.9 * text_) + legend_height_ + above_;
     note_ = type.wrapped(chart.note, plain(colours_.faint_text), width, 4);
     foot_ = 3.2 * text_;
     if (!note_.empty()) foot_ += (0.4 + row * static_cast<double>(note_.size())) * text_;
@@ -125,6 +130,8 @@ ChartPlace ChartDrawing::place() const {
 TextStyle ChartDrawing::plain(const Rgb& colour, Align align) const {
     return {.size = text_, .colour = colour, .align = align};
 }
+
+TextStyle ChartDrawing::mark_style() const { return {.size = 0.9 * text_, .colour = colours_.text}; }
 
 Stroke ChartDrawing::stroke_of(const ChartLine& line) const {
     return {.colour = colours_.series[static_cast<std::size_t>(line.colour) % colours_.series.size()],
@@ -187,7 +194,7 @@ void ChartDrawing::draw_dots(Ink& ink, const Polyline& at, double radius, const 
 }
 
 void ChartDrawing::draw_legend(Ink& ink) const {
-    const double top = axes_.y - 2 * text_ - legend_height_;
+    const double top = axes_.y - above_ - legend_height_;
     for (const Name& name : legend_) {
         const double x = left_ + name.x, y = top + name.y + 0.65 * text_;
         const Stroke stroke = stroke_of(*name.line);
@@ -221,38 +228,62 @@ void ChartDrawing::draw_names_at_ends(Ink& ink) const {
     }
 }
 
-void ChartDrawing::draw_marks(Ink& ink, FreePlaces& free) const {
-    const double top = axes_.y, foot = axes_.y + axes_.height;
+void ChartDrawing::lay_out_flags() {
+    const TextStyle style = mark_style();
     for (const ChartMark& mark : chart_.marks) {
-        const Point p = point(mark.x, mark.y.value_or(0));
-        if (mark.y) {
-            free.take(PixelRect{p[0] - mark_dot, p[1] - mark_dot, 2 * mark_dot, 2 * mark_dot});
-            draw_dots(ink, {p}, mark_dot + 0.6, colours_.background);
-            draw_dots(ink, {p}, mark_dot, colours_.text);
-        } else {
-            free.take(Polyline{{p[0], top}, {p[0], foot}});
-            ink.line(p[0], top, p[0], foot, {.colour = colours_.text, .width = thin_line, .dash = 1.5});
-        }
+        if (mark.y) continue;
+        flag_words_.push_back(type_.shortened(mark.label, style, 0.6 * width_));
+        flags_.push_back({.x = axes_.x + axes_.width * x_.share(mark.x),
+                          .width = type_.width(flag_words_.back(), style) + flag_gap * text_});
     }
-    const TextStyle style{.size = 0.9 * text_, .colour = colours_.text};
+    if (!place_flags(flags_, left_, left_ + width_, flag_gap * text_))
+        flag_words_.assign(flag_words_.size(), "");  // no room: the lines alone
+    // The title of the vertical axis in the lowest row, or else above all.
+    const double title_end = left_ + type_.width(y_.title(), plain(colours_.text)) + text_;
+    for (const Flag& flag : flags_)
+        if (flag.begin() < title_end) title_row_ = 1;
+    if (title_row_ > 0)
+        for (const Flag& flag : flags_) title_row_ = std::max(title_row_, flag.row + 1);
+}
+
+void ChartDrawing::draw_flags(Ink& ink) const {
+    const TextStyle style = mark_style();
+    for (std::size_t k = 0; k < flags_.size(); ++k) {
+        const Flag& flag = flags_[k];
+        const double base = axes_.y - (0.55 + flag_row * flag.row) * text_;
+        const double top = flag_words_[k].empty() ? axes_.y : base - 0.75 * style.size;
+        ink.line(flag.x, top, flag.x, axes_.y + axes_.height,
+                 {.colour = colours_.faint_text, .width = thin_line});
+        ink.text(flag_words_[k], flag.begin() + (flag.to_left ? 0 : flag_gap * text_), base, style);
+    }
+}
+
+void ChartDrawing::draw_dot_marks(Ink& ink, FreePlaces& free) const {
+    for (const Flag& flag : flags_) free.take(Polyline{{flag.x, axes_.y}, {flag.x, axes_.y + axes_.height}});
     for (const ChartMark& mark : chart_.marks) {
-        const Point p = point(mark.x, mark.y.value_or(0));
-        const Point from{p[0], mark.y ? p[1] : top}, to{p[0], mark.y ? p[1] : foot};
+        if (!mark.y) continue;
+        const Point p = point(mark.x, *mark.y);
+        free.take(PixelRect{p[0] - mark_dot, p[1] - mark_dot, 2 * mark_dot, 2 * mark_dot});
+        draw_dots(ink, {p}, mark_dot + 0.6, colours_.background);
+        draw_dots(ink, {p}, mark_dot, colours_.text);
+    }
+    const TextStyle style = mark_style();
+    for (const ChartMark& mark : chart_.marks) {
+        if (!mark.y) continue;
+        const Point p = point(mark.x, *mark.y);
         const std::string words = type_.shortened(mark.label, style, 0.8 * axes_.width);
-        const double gap = mark.y ? mark_dot + 0.4 * text_ : 0.35 * text_;
-        const auto box = free.nearest(from, to, type_.width(words, style), 0.95 * style.size, gap);
-        if (!box) continue;  // full of data: the mark alone
+        const auto box =
+            free.nearest(p, type_.width(words, style), 0.95 * style.size, mark_dot + 0.4 * text_);
+        if (!box) continue;  // full of data: the dot alone
         free.take(*box);
-        const Way way = way_to(*box, from, to);
-        if (way.length > 1.2 * text_) {
-            const double begin = (mark.y ? mark_dot + 0.6 : 0) / way.length,
-                         end = 1 - 0.15 * text_ / way.length;
-            const auto at = [&](double share) {
-                return Point{way.begin[0] + share * (way.end[0] - way.begin[0]),
-                             way.begin[1] + share * (way.end[1] - way.begin[1])};
+        const Point q = nearest_point(*box, p);
+        const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
+        if (length > 1.2 * text_) {
+            const auto at = [&](double along) {
+                return Point{p[0] + along / length * (q[0] - p[0]), p[1] + along / length * (q[1] - p[1])};
             };
-            ink.line(at(begin)[0], at(begin)[1], at(end)[0], at(end)[1],
-                     {.colour = colours_.line, .width = thin_line});
+            const Point begin = at(mark_dot + 0.6), end = at(length - 0.15 * text_);
+            ink.line(begin[0], begin[1], end[0], end[1], {.colour = colours_.line, .width = thin_line});
         }
         ink.text(words, box->x, box->y + 0.84 * style.size, style);
     }
@@ -265,7 +296,8 @@ void ChartDrawing::draw(Ink& ink) const {
     if (!chart_.title.empty())
         ink.text(type_.shortened(chart_.title, strong, width_), left_, axes_.y - head_ + text_, strong);
     const TextStyle style = plain(colours_.text);
-    ink.text(type_.shortened(y_.title(), style, width_), left_, axes_.y - 0.9 * text_, style);
+    ink.text(type_.shortened(y_.title(), style, width_), left_,
+             axes_.y - (0.9 + flag_row * title_row_) * text_, style);
     ink.text(type_.shortened(x_.title(), style, axes_.width), axes_.x + axes_.width / 2, foot + 2.8 * text_,
              plain(colours_.text, Align::centre));
 
@@ -300,7 +332,8 @@ void ChartDrawing::draw(Ink& ink) const {
     if (empty)
         ink.text("no data", axes_.x + axes_.width / 2, axes_.y + axes_.height / 2,
                  plain(colours_.faint_text, Align::centre));
-    draw_marks(ink, free);
+    draw_flags(ink);
+    draw_dot_marks(ink, free);
     draw_names_at_ends(ink);
     double below = foot + 4.4 * text_;
     for (const std::string& words : note_) {

@@ -5,13 +5,8 @@
 
 namespace hibi {
 
-Way way_to(const PixelRect& box, const Point& from, const Point& to) {
-    const double low = std::min(from[1], to[1]), high = std::max(from[1], to[1]);
-    const double x = std::clamp(from[0], box.x, box.x + box.width);
-    // The height that both share, or else the ends that are next to each other.
-    const double y = std::clamp(std::clamp(box.y + box.height / 2, low, high), box.y, box.y + box.height);
-    const Way way{{from[0], std::clamp(y, low, high)}, {x, y}, 0};
-    return {way.begin, way.end, std::hypot(way.end[0] - way.begin[0], way.end[1] - way.begin[1])};
+Point nearest_point(const PixelRect& box, const Point& to) {
+    return {std::clamp(to[0], box.x, box.x + box.width), std::clamp(to[1], box.y, box.y + box.height)};
 }
 
 void FreePlaces::take(const Polyline& line) {
@@ -32,20 +27,19 @@ bool FreePlaces::is_free(const PixelRect& box) const {
                                 [&](const auto& line) { return cut(line[0], line[1], wide).has_value(); });
 }
 
-std::optional<PixelRect> FreePlaces::nearest(const Point& from, const Point& to, double width, double height,
-                                             double gap) const {
+std::optional<PixelRect> FreePlaces::nearest(const Point& to, double width, double height, double gap) const {
     struct Candidate {
         PixelRect box;
         double cost;
     };
     std::vector<Candidate> candidates;
-    const double step = height / 4, middle = std::min(from[1], to[1]) - height / 2;
-    // Exactly beside, above and below the anchor, and from there on in steps.
-    std::vector<double> xs{from[0] + gap, from[0] - gap - width, from[0] - width / 2};
+    // Exactly beside, above and below the point, and from there on in steps.
+    const double step = height / 4, middle = to[1] - height / 2;
+    std::vector<double> xs{to[0] + gap, to[0] - gap - width, to[0] - width / 2};
     for (double d = step; d < area_.width; d += step) {
-        xs.push_back(from[0] + gap + d);
-        xs.push_back(from[0] + gap - d);
-        xs.push_back(from[0] - gap - width - d);
+        xs.push_back(to[0] + gap + d);
+        xs.push_back(to[0] + gap - d);
+        xs.push_back(to[0] - gap - width - d);
     }
     std::vector<double> ys{middle, middle - height / 2 - gap, middle + height / 2 + gap};
     for (double d = step; d < area_.height; d += step) {
@@ -55,10 +49,11 @@ std::optional<PixelRect> FreePlaces::nearest(const Point& from, const Point& to,
     for (const double x : xs)
         for (const double y : ys) {
             const PixelRect box{x, y, width, height};
-            const double distance = way_to(box, from, to).length;
+            const Point nearest = nearest_point(box, to);
+            const double distance = std::hypot(nearest[0] - to[0], nearest[1] - to[1]);
             if (distance < gap * (1 - 1e-9)) continue;
-            const double below = std::abs(y - middle) + (from == to && y > middle ? step : 0);
-            candidates.push_back({box, distance + 0.05 * below + (x < from[0] ? 0.1 * step : 0)});
+            const double aside = 0.05 * std::abs(y - middle) + (y > middle ? 0.05 * step : 0);
+            candidates.push_back({box, distance + aside + (x < to[0] ? 0.1 * step : 0)});
         }
     std::ranges::stable_sort(candidates, {}, &Candidate::cost);
     for (const Candidate& c : candidates)

@@ -15,10 +15,9 @@ class FreePlaces {
     void take(const Polyline& line);
     void take(const PixelRect& box) { boxes_.push_back(box); }
 
-    /// The free place for a label of that size which is nearest to a line from `from` to `to` (a point: both
-    /// the same), but not nearer than `gap`. Of equals the one at the right, higher up.
-    std::optional<PixelRect> nearest(const Point& from, const Point& to, double width, double height,
-                                     double gap) const;
+    /// The free place for a label of that size which is nearest to a point, but not nearer than `gap`. Of
+    /// equals the one at the right, and higher up.
+    std::optional<PixelRect> nearest(const Point& to, double width, double height, double gap) const;
 
  private:
     bool is_free(const PixelRect& box) const;
@@ -29,11 +28,7 @@ class FreePlaces {
     std::vector<PixelRect> boxes_;
 };
 
-/// From the line from `from` to `to`, upright or a point, to the box.
-struct Way {
-    Point begin{}, end{};
-    double length = 0;
-};
-Way way_to(const PixelRect& box, const Point& from, const Point& to);
+/// Of a box, the point nearest to this one.
+Point nearest_point(const PixelRect& box, const Point& to);
 
 }  // namespace hibi

@@ -74,7 +74,7 @@ double distance(const Point& p, const Point& a, const Point& b) {
 }  // namespace
 
 Polyline simplified(const Polyline& line, double tolerance) {
-    const Polyline points = thinned(line, tolerance);
+    const Polyline points = thinned(line, 4 * tolerance);
     if (points.size() < 3) return points;
     // Douglas and Peucker: the point furthest from the chord is kept, and both sides are looked at again.
     std::vector<char> keep(points.size(), 0);
