@@ -8,6 +8,8 @@
 #include <cstdio>
 
 #include "app/check.hpp"
+#include "app/compare.hpp"
+#include "app/converge.hpp"
 #include "app/doctor.hpp"
 #include "app/draw.hpp"
 #include "app/figures.hpp"
@@ -166,6 +168,79 @@ void add_report(CLI::App& app, int& status) {
     report->callback([o, &status] { status = report_command(*o); });
 }
 
+void add_compare(CLI::App& app, int& status) {
+    Command* compare =
+        app.add_subcommand("compare", "One film of several runs, on one clock and with one colour range");
+    const auto o = options_of<CompareOptions>();
+    compare->add_option("DIR", o->folders, "folders of the runs")->required();
+    compare->add_option("-o,--output", o->output, "folder of the film")->capture_default_str();
+    compare
+        ->add_option_function<std::string>(
+            "--align", [o](const std::string& name) { o->align = event_from(name); },
+            "let all clocks agree at first_break, peak_load or separation")
+        ->check(CLI::IsMember({"first_break", "peak_load", "separation"}))
+        ->type_name("TEXT");
+    compare->add_option("--label", o->labels, "name of a run, once for each (default: what tells them apart)")
+        ->allow_extra_args(false);
+    compare->add_option("--title", o->title, "of the film (default: that of the first run)");
+    compare->add_option("--columns", o->columns, "panels in a row (default: so that the bodies are largest)")
+        ->check(CLI::Range(1, 100));
+    compare
+        ->add_option_function<std::string>(
+            "--size",
+            [o](const std::string& text) {
+                int width = 0, height = 0;
+                char rest = 0;
+                if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 64 ||
+                    height < 64 || width % 2 || height % 2)
+                    throw CLI::ValidationError("--size",
+                                               "needs even numbers of pixels, for example 1920x1080");
+                o->size = {width, height};
+            },
+            "WIDTHxHEIGHT (default: that of the first run's film)")
+        ->type_name("TEXT");
+    compare->add_flag("--force", o->force, "write into a folder that holds other things");
+    add_drawing(*compare, o->renderer);
+    add_quiet(*compare, o->quiet);
+    compare->callback([o, &status] { status = compare_command(*o); });
+}
+
+void add_study(Command& command, std::vector<std::string>& grid, StudyOptions& study, const char* folder) {
+    command.add_option("-p,--param", grid, "values of one of [params], name=value,value,...")
+        ->allow_extra_args(false)
+        ->required();
+    command.add_option("-o,--output", study.folder, folder);
+    command.add_option("--jobs", study.jobs, "runs at once (default: one per core)")
+        ->check(CLI::Range(1, 1024));
+    command.add_flag("--force", study.force, "run again what is there already; write into any folder");
+    add_quiet(command, study.quiet);
+}
+
+void add_sweep(CLI::App& app, int& status) {
+    Command* sweep =
+        app.add_subcommand("sweep", "Run a scene for all combinations of parameters: table, sheet, plot");
+    const auto o = options_of<SweepOptions>();
+    sweep->add_option("SCENE", o->scene, "scene file (TOML)")->required();
+    add_study(*sweep, o->grid, o->study, "folder of the runs (default: out/<scene name>_sweep)");
+    sweep->add_flag("--pictures", o->study.pictures, "film, figures and report of every run, too");
+    sweep->add_flag("--json", o->json, "print sweep.json instead of the table");
+    add_drawing(*sweep, o->renderer);
+    sweep->callback([o, &status] { status = sweep_command(*o); });
+}
+
+void add_converge(CLI::App& app, int& status) {
+    Command* converge =
+        app.add_subcommand("converge", "The same experiment at several resolutions: table, plot, film");
+    const auto o = options_of<ConvergeOptions>();
+    converge->add_option("SCENE", o->scene, "scene file (TOML)")->required();
+    add_study(*converge, o->grid, o->study, "folder of the runs (default: out/<scene name>_converge)");
+    converge->add_flag("!--one", o->both, "only with the scene's own criterion of failure, not with both");
+    converge->add_flag("!--no-movie", o->film, "no film side by side");
+    converge->add_flag("--json", o->json, "print converge.json instead of the table");
+    add_drawing(*converge, o->renderer);
+    converge->callback([o, &status] { status = converge_command(*o); });
+}
+
 void add_check(CLI::App& app, int& status) {
     Command* check =
         app.add_subcommand("check", "Read a scene and say what would be modelled; nothing is run");
@@ -220,8 +295,8 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_check, add_preview,
-                           add_new, add_reproduce, add_doctor})
+    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep,
+                           add_converge, add_check, add_preview, add_new, add_reproduce, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help

@@ -70,28 +70,32 @@ FilmPlan plan_film(const MovieSpec& movie, const Events& events, const std::vect
                    double begin, double end) {
     FilmPlan plan{
         .map = time_map(movie, events, begin, end), .duration = movie.duration, .flash = movie.flash};
-    const int frames = movie.frames();
-    plan.event.resize(frames);
-    plan.time.resize(frames);
-    for (int k = 0; k < frames; ++k) plan.time[k] = plan.map.simulated(plan.film_time(k));
-    plan.time.back() = end;  // to the last bit, so that the last frame is the last state
-    // Rounding must not tell the frames that stand still from one another.
-    for (double& time : plan.time)
-        if (end - time < 1e-12 * (end - begin)) time = end;
-    plan.events.resize(frames);
-    const auto mark = [&](int frame, EventName name) {
-        plan.event[frame] = name;
-        plan.events[frame].push_back(name);
-    };
-    mark(0, EventName::start);
-    mark(*first_frame(plan.time, end), EventName::end);
-    for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
-        // A load that never fell has no peak worth a label: it is simply the end.
-        if (const std::optional<double> time = events.time_of({name, 0});
-            time && !(name == EventName::peak_load && *time >= end))
-            if (const std::optional<int> frame = first_frame(plan.time, *time)) mark(*frame, name);
+    plan.set_frames(movie.frames(), events, end);
     plan.poster = poster_frame(plan, movie, events, broken_at);
     return plan;
+}
+
+void FilmPlan::set_frames(int frames, const Events& happened, double end) {
+    event.assign(frames, {});
+    time.resize(frames);
+    for (int k = 0; k < frames; ++k) time[k] = map.simulated(film_time(k));
+    time.back() = end;  // to the last bit, so that the last frame is the last state
+    // Rounding must not tell the frames that stand still from one another.
+    const double begin = time.front();
+    for (double& t : time)
+        if (end - t < 1e-12 * (end - begin)) t = end;
+    events.assign(frames, {});
+    const auto mark = [&](int frame, EventName name) {
+        event[frame] = name;
+        events[frame].push_back(name);
+    };
+    mark(0, EventName::start);
+    mark(*first_frame(time, end), EventName::end);
+    for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
+        // A load that never fell has no peak worth a label: it is simply the end.
+        if (const std::optional<double> at = happened.time_of({name, 0});
+            at && !(name == EventName::peak_load && *at >= end))
+            if (const std::optional<int> frame = first_frame(time, *at)) mark(*frame, name);
 }
 
 double FilmPlan::film_time(int frame) const {

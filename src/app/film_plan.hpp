@@ -21,6 +21,9 @@ struct FilmPlan {
     std::vector<std::vector<EventName>> events{};   ///< all of a frame
     int poster = 0;  ///< the frame that tells most: the crack long, the body not yet in two
 
+    /// Times and events of so many frames, from the map. The last frame shows `end` to the last bit.
+    void set_frames(int frames, const Events& happened, double end);
+
     /// The event whose label stands in the picture, for a while after it happened, and how strongly (0..1).
     struct Label {
         std::string text;

@@ -16,7 +16,8 @@ struct NotchLine {
 
 std::vector<NotchLine> find_notches(const Topology& topology);
 
-/// The notch at this moment, in the middle between its sides, without the parts that stand wide open: x, y are positions of all particles (m).
+/// The notch at this moment, in the middle between its sides, without the parts that stand wide open: x, y
+/// are positions of all particles (m).
 Symbol place_notch(const NotchLine& notch, const Topology& topology, std::span<const double> x,
                    std::span<const double> y, const Camera2& camera);
 

@@ -91,7 +91,7 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, DrawingStyle st
 
 int RunDrawing::draw(int frame, Image& image) {
     OverlayFrame over{.speed = plan().speed(frame)};
-    if (const std::optional<FilmPlan::Label> label = plan().label(frame)) {
+    if (const auto label = style_.event_labels ? plan().label(frame) : std::nullopt) {
         over.event = label->text;
         over.event_strength = label->strength;
     }
@@ -147,7 +147,7 @@ Camera2 RunDrawing::camera() {
                 reserved.push_back(r);
         }
     }
-    return camera_for(body_window(run_, view), reserved, plot);
+    return camera_for(style_.window.value_or(body_window(run_, view)), reserved, plot);
 }
 
 double RunDrawing::load_size(int load, double time) const {

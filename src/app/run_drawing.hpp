@@ -20,9 +20,11 @@ struct DrawingStyle {
     std::string title;
     std::array<double, 2> range{0, 1};  ///< of the colours, in the field's SI unit
     FilmPlan plan;
+    std::optional<std::array<double, 4>> window{};  ///< of the body, in place of that of its run (m)
     /// Crack history: the unloaded body in one colour, each broken bond coloured by its time of breaking,
     /// `range` being in seconds.
     bool history = false;
+    bool event_labels = true;  ///< events are named in the picture while they happen
 };
 /// The style of the scene's own film.
 DrawingStyle film_style(const Scene& scene, const RunReader& run);

@@ -76,6 +76,12 @@ TimeMap::TimeMap(double begin, double end, double duration, const std::vector<Sl
     knots_.back() = {duration, end};  // exactly, whatever the sum was rounded to
 }
 
+TimeMap TimeMap::shifted(double offset) const {
+    TimeMap map = *this;
+    for (auto& [film, simulated] : map.knots_) simulated += offset;
+    return map;
+}
+
 double TimeMap::simulated(double film) const {
     if (!(film > 0)) return knots_.front().second;
     const auto next = std::ranges::upper_bound(knots_, film, {}, &std::pair<double, double>::first);

@@ -25,6 +25,9 @@ class TimeMap {
     TimeMap(double begin, double end, double duration, const std::vector<SlowSpan>& slow,
             const std::optional<Emphasis>& emphasis);
 
+    /// The same map for a run whose clock differs by `offset` (s).
+    TimeMap shifted(double offset) const;
+
     double simulated(double film) const;  ///< (s)
     double film(double simulated) const;  ///< inverse; the earliest film time where it is not unique
     double duration() const { return knots_.back().first; }

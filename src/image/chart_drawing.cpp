@@ -83,7 +83,7 @@ ChartDrawing::ChartDrawing(const Chart& chart, double left, double width, const 
     for (const Flag& flag : flags_) rows = std::max(rows, flag.row);
     above_ = (2 + flag_row * rows) * text_;
     head_ = (chart.title.empty() ? 0 : 1.9 * text_) + legend_height_ + above_;
-    note_ = type.wrapped(chart.note, plain(colours_.faint_text), width, 4);
+    note_ = type.wrapped(chart.note, plain(colours_.faint_text), width, 8);
     foot_ = 3.2 * text_;
     if (!note_.empty()) foot_ += (0.4 + row * static_cast<double>(note_.size())) * text_;
 }

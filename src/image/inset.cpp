@@ -19,6 +19,10 @@ std::array<double, 2> range_of(const std::vector<double>& values) {
     return range;
 }
 
+std::array<double, 2> joined(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+    return {std::min(a[0], b[0]), std::max(a[1], b[1])};
+}
+
 double magnitude(const std::array<double, 2>& range) { return std::max(-range[0], range[1]); }
 
 }  // namespace
@@ -26,7 +30,11 @@ double magnitude(const std::array<double, 2>& range) { return std::max(-range[0]
 Inset::Inset(const InsetCurve& curve, const PixelRect& rect, const Theme& theme, const Typesetter& type,
              double text, double unit)
     : theme_(theme), type_(type), text_(text), unit_(unit), rect_(rect) {
-    const auto x_range = range_of(curve.x), y_range = range_of(curve.y);
+    auto x_range = range_of(curve.x), y_range = range_of(curve.y);
+    for (const InsetCurve::Other& other : curve.others) {
+        x_range = joined(x_range, range_of(other.x));
+        y_range = joined(y_range, range_of(other.y));
+    }
     const Scale x_scale = scale_for(magnitude(x_range), curve.x_unit);
     const Scale y_scale = scale_for(magnitude(y_range), curve.y_unit);
     x_title_ = with_unit(curve.x_title, x_scale);
@@ -53,12 +61,23 @@ Inset::Inset(const InsetCurve& curve, const PixelRect& rect, const Theme& theme,
     axes_ = {rect.x + left, rect.y + top, rect.width - left - right, rect.height - top - bottom};
     x_ticks_ = round_ticks(x_low_, x_high_, std::max(2, static_cast<int>(axes_.width / (3.0 * text))));
 
+    const auto pixel_x = [&](double x) {
+        return axes_.x + axes_.width * (x * x_scale.factor - x_low_) / (x_high_ - x_low_);
+    };
+    const auto pixel_y = [&](double y) {
+        return axes_.y + axes_.height * (1 - (y * y_scale.factor - y_low_) / (y_high_ - y_low_));
+    };
+    for (const InsetCurve::Other& other : curve.others) {
+        Line& line = others_.emplace_back();
+        for (std::size_t i = 0; i < other.time.size(); ++i)
+            if (std::isfinite(other.x[i]) && std::isfinite(other.y[i]))
+                line.add(other.time[i], pixel_x(other.x[i]), pixel_y(other.y[i]), i + 1 == other.time.size());
+    }
     const int count = static_cast<int>(curve.time.size());
     for (int i = 0; i < count; ++i) {
         if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
-        const double px = axes_.x + axes_.width * (curve.x[i] * x_scale.factor - x_low_) / (x_high_ - x_low_);
-        const double share = (curve.y[i] * y_scale.factor - y_low_) / (y_high_ - y_low_);
-        line_.add(curve.time[i], px, axes_.y + axes_.height * (1 - share), i == count - 1);
+        const double px = pixel_x(curve.x[i]);
+        line_.add(curve.time[i], px, pixel_y(curve.y[i]), i == count - 1);
         if (most_broken > 0)
             broken_.add(curve.time[i], px, axes_.y + axes_.height * (1 - curve.broken[i] / most_broken),
                         i == count - 1);
@@ -120,6 +139,10 @@ void Inset::draw_lines(cairo_t* cairo, double time) const {
     set_colour(cairo, theme_.curve_second);
     broken_.draw(cairo, time, 0);
     cairo_set_line_width(cairo, std::max(1.2, 2 * unit_));
+    for (std::size_t k = others_.size(); k-- > 0;) {
+        set_colour(cairo, theme_.series[(k + 1) % theme_.series.size()]);
+        others_[k].draw(cairo, time, std::max(2.2, 4 * unit_));
+    }
     set_colour(cairo, theme_.curve);
     line_.draw(cairo, time, std::max(2.2, 4 * unit_));
 }

@@ -36,6 +36,7 @@ class Inset {
     double x_low_, x_high_, y_low_, y_high_;  // written numbers
     Ticks x_ticks_, y_ticks_;
     Line line_, broken_;
+    std::vector<Line> others_;
 };
 
 }  // namespace hibi

@@ -195,7 +195,7 @@ struct Overlay::Impl {
         if (layout.parts.time) {
             TextStyle s = strong(colours.text, 1.45);
             const std::string number = decimal(frame.time * time_scale.factor, time_decimals);
-            std::string text = fmt::format("t = {} {}", number, time_scale.unit);
+            std::string text = fmt::format("{} = {} {}", content.time_symbol, number, time_scale.unit);
             const double needed = type.width(text, s);
             if (needed > r.width) s.size *= r.width / needed;
             type.draw(cairo, text, r.x, r.y + 1.4 * layout.text, s);

@@ -23,6 +23,10 @@ struct InsetCurve {
     std::string x_title{}, x_unit{}, y_title{}, y_unit{};
     std::vector<double> time{}, x{}, y{};
     std::vector<double> broken{};  ///< optional second line, a count on the same x
+    struct Other {
+        std::vector<double> time{}, x{}, y{};
+    };
+    std::vector<Other> others{};  ///< of other runs, in the colours of Theme::series behind the first
 };
 
 /// A support or load in pixels of one frame.
@@ -56,6 +60,7 @@ struct OverlayContent {
     std::string load_title{};    ///< e.g. "Load"; empty: no load is shown
     std::string load_unit{};     ///< "N"
     double load_max = 0;         ///< largest magnitude over the run: fixes prefix and decimals
+    std::string time_symbol{"t"};
     double time_end = 0;         ///< of the run (s): fixes prefix
     double time_resolution = 0;  ///< smallest difference that the time has to show (s): fixes decimals
 };

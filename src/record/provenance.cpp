@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "record/files.hpp"
+
 namespace hibi {
 
 namespace {
@@ -71,6 +73,10 @@ std::optional<Provenance> from_comment(const std::string& text) {
     for (const auto& [keyword, value] : json.items())
         if (value.is_string()) texts[keyword] = value.get<std::string>();
     return from_texts(texts);
+}
+
+void write_texts(const std::filesystem::path& file, const Texts& texts) {
+    write_file(file, Json(texts).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::string shell_command(const std::vector<std::string>& words) {

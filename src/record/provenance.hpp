@@ -30,6 +30,9 @@ std::optional<Provenance> from_texts(const Texts& texts);
 std::string to_comment(const Provenance& provenance);
 std::optional<Provenance> from_comment(const std::string& text);
 
+/// The same as a JSON object in a file of its own.
+void write_texts(const std::filesystem::path& file, const Texts& texts);
+
 /// The words of a command as a POSIX shell takes them, quoted where need be.
 std::string shell_command(const std::vector<std::string>& words);
 std::vector<std::string> shell_words(const std::string& command);  ///< the inverse

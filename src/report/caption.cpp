@@ -3,38 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "base/units.hpp"
+#include "report/place.hpp"
 
 namespace hibi {
 
 namespace {
 
-struct Box {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    void include(const Vec3& p) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-};
-
-/// "at the upper left": where in the body a place is, in thirds.
-std::string place_in(const Box& body, const Vec3& p) {
-    const auto third = [&](int axis) {
-        const double span = body.high[axis] - body.low[axis];
-        const double share = span > 0 ? (p[axis] - body.low[axis]) / span : 0.5;
-        return share < 1.0 / 3 ? 0 : share > 2.0 / 3 ? 2 : 1;
-    };
-    static const char* const words[3][3] = {{"at the lower left", "at the bottom", "at the lower right"},
-                                            {"at the left", "in the middle", "at the right"},
-                                            {"at the upper left", "at the top", "at the upper right"}};
-    return words[third(1)][third(0)];
-}
-
-/// The same for a set of particles: a whole edge is named by its side.
-std::string place_of(const Box& body, const Topology& topology, const std::vector<int>& particles) {
+/// Where a set of particles is: a whole edge is named by its side.
+std::string place_of(const Extent& body, const Topology& topology, const std::vector<int>& particles) {
     Vec3 middle = Vec3::Zero();
     for (const int i : particles)
         middle += topology.reference_position[i] / static_cast<double>(particles.size());
@@ -92,8 +71,7 @@ Caption caption_of(const RunSummary& s, const Topology& topology, const std::str
     sentence(c.text,
              fmt::format("Computed and drawn by hibi {}, scene {}", s.version, s.scene_hash.substr(0, 12)));
 
-    Box body;
-    for (const Vec3& X : topology.reference_position) body.include(X);
+    const Extent body = extent_of(topology);
     const Vec3 size =
         body.high - body.low + Vec3::Constant(topology.spacing.empty() ? 0 : topology.spacing.front());
     sentence(c.alternative,

@@ -18,8 +18,8 @@ Caption caption_of(const RunSummary& summary, const Topology& topology, const st
 /// caption.md: both texts, ready to be copied.
 std::string caption_markdown(const Caption& caption, const std::string& title);
 
-/// Figures of the run's folder with their caption, as source for other programs. File names are relative to the
-/// folder of the run.
+/// Figures of the run's folder with their caption, as source for other programs. File names are relative to
+/// the folder of the run.
 std::string latex_snippet(const Caption& caption, const std::string& label);
 std::string quarto_snippet(const Caption& caption, const std::string& label);
 std::string markdown_snippet(const Caption& caption);

@@ -90,7 +90,8 @@ std::string verdict(const RunSummary& s) {
 std::string results(const RunSummary& s) {
     const bool loaded = s.events.peak_load.has_value();
     std::string text =
-        "<div class=\"scroll\"><table class=\"events\">\n<thead><tr><th scope=\"col\">Event</th><th scope=\"col\">Time</th>";
+        "<div class=\"scroll\"><table class=\"events\">\n<thead><tr><th scope=\"col\">Event</th><th "
+        "scope=\"col\">Time</th>";
     if (loaded) text += "<th scope=\"col\">Load</th><th scope=\"col\">Displacement</th>";
     text += "<th scope=\"col\">Place</th></tr></thead>\n<tbody>\n";
     for (const auto& [name, event] : events_of(s.events)) {

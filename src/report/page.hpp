@@ -28,9 +28,9 @@ struct PageContent {
     std::vector<PageKeyFrame> key_frames;
 };
 
-/// One offline HTML page: film, curves whose cursor follows the film and moves it, key frames, results, energy
-/// verdict, scene, and the command that makes it again. Light and dark, for screen, phone and print. It asks
-/// nothing of a network.
+/// One offline HTML page: film, curves whose cursor follows the film and moves it, key frames, results,
+/// energy verdict, scene, and the command that makes it again. Light and dark, for screen, phone and print.
+/// It asks nothing of a network.
 std::string report_page(const PageContent& content);
 
 }  // namespace hibi

@@ -1,3 +1,4 @@
+#include "base/units.hpp"
 #include "scene/read.hpp"
 
 #include <fmt/format.h>
@@ -95,7 +96,7 @@ void read_params(const Value& document, const Overrides& overrides, ReadContext&
                 text = given;
             }
         context.names.params[entry.key] = *quantity;
-        scene.params.push_back({entry.key, text, quantity->value});
+        scene.params.push_back({entry.key, text, quantity->value, si_symbol(quantity->dimension)});
     }
     for (const auto& [name, given] : overrides) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;

@@ -28,10 +28,11 @@ struct Selection {
     }
 };
 
-/// A name of [params]: a quantity or an expression over earlier names. `value` is SI.
+/// A name of [params]: a quantity or an expression over earlier names. `value` is SI, in `unit`.
 struct Parameter {
     std::string name, text;
     double value = 0;
+    std::string unit{};  ///< SI symbol; "" for a plain number
 };
 
 struct BodySpec {
