@@ -88,7 +88,7 @@ std::vector<double> log_ticks(double low, double high, int most, std::vector<dou
     if (ticks.size() < 2) return round_ticks(low, high, most).at;
     for (int decades = 1; static_cast<int>(ticks.size()) > most && decades <= last - first; ++decades)
         ticks = ticks_with({1}, decades);
-    if (!minor || std::log10(high / low) > most) return ticks;
+    if (!minor || high / low > 1e4) return ticks;
     for (const double v : ticks_with({2, 3, 4, 5, 6, 7, 8, 9}, 1))
         if (std::ranges::find(ticks, v) == ticks.end()) minor->push_back(v);
     return ticks;

@@ -32,8 +32,8 @@ struct Ticks {
 Ticks round_ticks(double low, double high, int most);
 
 /// The same on a logarithmic axis, 0 < low < high: powers of ten and, where there is room, 2 and 5 times
-/// them; ticks evenly apart in number where these are fewer than two. `minor`: if given, what lies between
-/// powers of ten that are ticks (2, 3, ... 9 times them) and is none itself.
+/// them; ticks evenly apart in number where these are fewer than two. `minor`, if given, takes the multiples
+/// of powers of ten (2, 3, ... 9 times them) that are none, over at most four decades.
 std::vector<double> log_ticks(double low, double high, int most, std::vector<double>* minor = nullptr);
 
 /// The largest 1, 2 or 5 times a power of ten that is not above the limit (> 0).

@@ -13,7 +13,7 @@ namespace hibi {
 namespace {
 
 constexpr double mm = 72 / 25.4;  // in points, as all lengths here; images scale the pen
-constexpr double least_chart_mm = 75, between_mm = 5;
+constexpr double least_chart_mm = 75, between_mm = 5, between_rows_mm = 7;
 
 /// All charts of a figure in their places.
 class Figure {
@@ -36,7 +36,7 @@ class Figure {
                 rest = std::max(rest, drawings_.back().height_from_axes());
             }
             for (int k = begin; k < end; ++k) drawings_[k].place(y + head);
-            y += head + rest + (end < count ? between : margin);
+            y += head + rest + (end < count ? between_rows_mm * mm : margin);
         }
         height_ = std::max(y, 2 * margin);
     }

@@ -41,10 +41,13 @@ std::array<double, 2> range_of(const ChartAxis& axis, const std::vector<double>&
 
 ChartScale::ChartScale(const ChartAxis& axis, const std::vector<double>& values, double beyond)
     : range_(range_of(axis, values, beyond)), logarithmic_(axis.logarithmic) {
-    const double largest = std::max(std::abs(range_[0]), std::abs(range_[1]));
     // The largest value chooses the prefix, not what is beyond it.
-    scale_ = scale_for(axis.range ? largest : largest / (1 + beyond), axis.unit);
-    powers_ = logarithmic_ && range_[1] / range_[0] > 1000;
+    double largest = 0;
+    for (const double v : values)
+        if (!axis.range && fits_on(axis, v)) largest = std::max(largest, std::abs(v));
+    if (largest == 0) largest = std::max(std::abs(range_[0]), std::abs(range_[1]));
+    scale_ = scale_for(largest, axis.unit);
+    powers_ = logarithmic_ && range_[1] / range_[0] > 1e5;
     if (powers_) scale_ = {1, axis.unit};
     title_ = with_unit(axis.title, scale_);
 }
@@ -69,6 +72,16 @@ std::vector<ChartScale::Number> ChartScale::ticks(int most) const {
                                                       : fmt::format("{:.6g}", v)});
     }
     for (const double v : minor) numbers.push_back({v / scale_.factor, ""});
+    return numbers;
+}
+
+std::vector<ChartScale::Number> ChartScale::few_values(std::vector<double> values) const {
+    std::erase_if(values, [&](double v) { return !(v >= range_[0] && v <= range_[1]); });
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    if (!logarithmic_ || powers_ || values.size() > 6) return {};
+    std::vector<Number> numbers;
+    for (const double v : values) numbers.push_back({v, fmt::format("{:.3g}", v * scale_.factor)});
     return numbers;
 }
 

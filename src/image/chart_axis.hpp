@@ -30,6 +30,9 @@ class ChartScale {
         std::string text{};  ///< empty: between those that have one
     };
     std::vector<Number> ticks(int most) const;
+    /// The values themselves where the axis is logarithmic and they are no more than six, else nothing:
+    /// spacings of a study, say, are better read than round numbers between them.
+    std::vector<Number> few_values(std::vector<double> values) const;
 
  private:
     std::array<double, 2> range_;

@@ -61,23 +61,25 @@ ChartDrawing::ChartDrawing(const Chart& chart, double left, double width, const 
         lay_out_legend(named);
     axes_.x = left + margin;
     axes_.width = width - margin - std::max(names, 0.5 * text_);
-    // As many numbers as stand apart; half of the last one may reach beyond the axis.
-    for (int most = std::max(2, static_cast<int>(axes_.width / (2.5 * text_)));; --most) {
-        x_numbers_ = x_.ticks(most);
-        double taken = -1e9;
-        bool apart = true;
+    // A few values themselves, or as many round numbers as stand apart; half of the last one may reach beyond
+    // the axis.
+    double taken = 0;
+    const auto stand_apart = [&] {
+        taken = -1e9;
         for (const auto& number : x_numbers_) {
             if (number.text.empty()) continue;
             const double half = type.width(number.text, numbers) / 2;
             const double at = axes_.x + axes_.width * x_.share(number.value);
-            apart = apart && at - half > taken + 0.8 * text_;
+            if (at - half < taken + 0.8 * text_) return false;
             taken = at + half;
         }
-        if (apart || most == 2) {
-            axes_.width -= std::max(0.0, taken - left - width);
-            break;
-        }
-    }
+        return taken > 0;
+    };
+    x_numbers_ = x_.few_values(values_of(chart, &ChartLine::x));
+    for (int most = std::max(2, static_cast<int>(axes_.width / (2.5 * text_))); !stand_apart() && most >= 2;
+         --most)
+        x_numbers_ = x_.ticks(most);
+    axes_.width -= std::max(0.0, taken - left - width);
     lay_out_flags();
     int rows = title_row_;
     for (const Flag& flag : flags_) rows = std::max(rows, flag.row);
@@ -109,12 +111,21 @@ bool ChartDrawing::name_lines_at_their_ends(const std::vector<const ChartLine*>&
 }
 
 void ChartDrawing::lay_out_legend(const std::vector<const ChartLine*>& named) {
+    const auto width_of = [&](const ChartLine* line) {
+        return std::min(width_, 2.5 * text_ + type_.width(line->label, plain(colours_.text)));
+    };
+    const double between = 1.2 * text_;
+    double all = -between, widest = 0;
+    for (const ChartLine* line : named) {
+        all += width_of(line) + between;
+        widest = std::max(widest, width_of(line));
+    }
+    const bool in_columns = all > width_;
     double x = 0, y = 0;
     for (const ChartLine* line : named) {
-        const double width = std::min(2.5 * text_ + type_.width(line->label, plain(colours_.text)), width_);
-        if (x > 0 && x + width > width_) x = 0, y += row * text_;
+        if (x > 0 && x + width_of(line) > width_) x = 0, y += row * text_;
         legend_.push_back({line, x, y});
-        x += width + 1.2 * text_;
+        x += (in_columns ? widest : width_of(line)) + between;
     }
     legend_height_ = y + (row + 0.2) * text_;
 }
@@ -284,7 +295,11 @@ void ChartDrawing::draw_dot_marks(Ink& ink, FreePlaces& free) const {
             };
             const Point begin = at(mark_dot + 0.6), end = at(length - 0.15 * text_);
             ink.line(begin[0], begin[1], end[0], end[1], {.colour = colours_.line, .width = thin_line});
+            free.take(Polyline{begin, end});
         }
+        // Nothing but a grid line can be below the words.
+        cairo_rectangle(ink.path(), box->x, box->y, box->width, box->height);
+        ink.fill(colours_.background);
         ink.text(words, box->x, box->y + 0.84 * style.size, style);
     }
 }

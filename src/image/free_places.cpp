@@ -27,6 +27,20 @@ bool FreePlaces::is_free(const PixelRect& box) const {
                                 [&](const auto& line) { return cut(line[0], line[1], wide).has_value(); });
 }
 
+bool FreePlaces::crosses_line(const Point& a, const Point& b) const {
+    const auto side = [](const Point& p, const Point& q, const Point& r) {
+        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) > 0;
+    };
+    return std::ranges::any_of(lines_, [&](const auto& line) {
+        const auto& [c, d] = line;
+        return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+    });
+}
+
+bool FreePlaces::crosses_box(const Point& a, const Point& b) const {
+    return std::ranges::any_of(boxes_, [&](const PixelRect& box) { return cut(a, b, box).has_value(); });
+}
+
 std::optional<PixelRect> FreePlaces::nearest(const Point& to, double width, double height, double gap) const {
     struct Candidate {
         PixelRect box;
@@ -56,9 +70,17 @@ std::optional<PixelRect> FreePlaces::nearest(const Point& to, double width, doub
             candidates.push_back({box, distance + aside + (x < to[0] ? 0.1 * step : 0)});
         }
     std::ranges::stable_sort(candidates, {}, &Candidate::cost);
-    for (const Candidate& c : candidates)
-        if (is_free(c.box)) return c.box;
-    return {};
+    std::optional<PixelRect> second;
+    for (const Candidate& c : candidates) {
+        const Point end = nearest_point(c.box, to);
+        const double length = std::hypot(end[0] - to[0], end[1] - to[1]);
+        // It leaves the point, which lies on a line and inside a box of its own, at the distance of the gap.
+        const Point begin{to[0] + gap / length * (end[0] - to[0]), to[1] + gap / length * (end[1] - to[1])};
+        if (crosses_box(begin, end) || (second && crosses_line(begin, end)) || !is_free(c.box)) continue;
+        if (second || !crosses_line(begin, end)) return c.box;
+        second = c.box;
+    }
+    return second;
 }
 
 }  // namespace hibi

@@ -15,12 +15,15 @@ class FreePlaces {
     void take(const Polyline& line);
     void take(const PixelRect& box) { boxes_.push_back(box); }
 
-    /// The free place for a label of that size which is nearest to a point, but not nearer than `gap`. Of
-    /// equals the one at the right, and higher up.
+    /// The free place for a label of that size which is nearest to a point, but not nearer than `gap`; the
+    /// straight way to it passes no other label and, if that can be, no line. Of equals the one at the right,
+    /// and higher up.
     std::optional<PixelRect> nearest(const Point& to, double width, double height, double gap) const;
 
  private:
     bool is_free(const PixelRect& box) const;
+    bool crosses_line(const Point& from, const Point& to) const;
+    bool crosses_box(const Point& from, const Point& to) const;
 
     PixelRect area_;
     double clear_;
