@@ -37,6 +37,9 @@ std::array<double, 2> range_of(const ChartAxis& axis, const std::vector<double>&
     return {axis.from_zero && low == 0 ? 0 : low - more, axis.from_zero && high == 0 ? 0 : high + more};
 }
 
+/// Three significant digits, or all before the point.
+std::string short_number(double v) { return v < 1000 ? fmt::format("{:.3g}", v) : fmt::format("{:.0f}", v); }
+
 }  // namespace
 
 ChartScale::ChartScale(const ChartAxis& axis, const std::vector<double>& values, double beyond)
@@ -69,7 +72,7 @@ std::vector<ChartScale::Number> ChartScale::ticks(int most) const {
         else
             numbers.push_back({v / scale_.factor, power
                                                       ? power_of_ten(static_cast<int>(std::lround(exponent)))
-                                                      : fmt::format("{:.6g}", v)});
+                                                      : short_number(v)});
     }
     for (const double v : minor) numbers.push_back({v / scale_.factor, ""});
     return numbers;
@@ -81,7 +84,7 @@ std::vector<ChartScale::Number> ChartScale::few_values(std::vector<double> value
     values.erase(std::unique(values.begin(), values.end()), values.end());
     if (!logarithmic_ || powers_ || values.size() > 6) return {};
     std::vector<Number> numbers;
-    for (const double v : values) numbers.push_back({v, fmt::format("{:.3g}", v * scale_.factor)});
+    for (const double v : values) numbers.push_back({v, short_number(v * scale_.factor)});
     return numbers;
 }
 

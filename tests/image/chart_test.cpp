@@ -265,6 +265,7 @@ TEST(Chart, NumbersOfLogarithmicAxesAreRoundOrTheValues) {
     };
     const std::string few = svg_of({0.5, 1, 2}, {3.03e7, 3.53e7, 5.8e7});
     for (const char* words : {"0.5", "2", "30", "40", "50", "y (MN)"}) EXPECT_TRUE(has(few, words)) << words;
+    EXPECT_TRUE(has(svg_of({50, 3200}, {1, 2}), "3.2"));  // km
     const std::string many = svg_of({1e-5, 1}, {1e-3, 1e9});
     for (const char* words : {"10⁻⁵", "10⁶", "y (N)"}) EXPECT_TRUE(has(many, words)) << words;
     const std::string some = svg_of({1, 2, 3, 4, 5, 6, 70}, {0.02, 1, 1, 1, 1, 1, 60});

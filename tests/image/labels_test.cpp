@@ -39,13 +39,13 @@ TEST(FreePlaces, NoneWhereAllIsTaken) {
 
 TEST(FreePlaces, TheWayThereDoesNotRunThroughAnotherLabel) {
     FreePlaces free({0, 0, 100, 100}, 1);
-    // A wall around the point but for its lower side; the nearest place is behind it.
-    free.take(PixelRect{30, 40, 40, 5});
-    free.take(PixelRect{30, 40, 5, 20});
-    free.take(PixelRect{65, 40, 5, 20});
-    const auto box = free.nearest({50, 52}, 36, 8, 3);
+    // A tunnel too low for the label; it would be nearer above or below, but only the end is open.
+    free.take(PixelRect{30, 43, 45, 5});
+    free.take(PixelRect{30, 56, 45, 5});
+    free.take(PixelRect{30, 43, 5, 18});
+    const auto box = free.nearest({50, 52}, 15, 8, 3);
     ASSERT_TRUE(box);
-    EXPECT_GT(box->y, 52);
+    EXPECT_GT(box->x, 75);
 }
 
 TEST(Flags, WordsTouchNoOtherWordsAndNoLineRunsThroughThem) {
