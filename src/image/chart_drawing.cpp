@@ -76,7 +76,7 @@ ChartDrawing::ChartDrawing(const Chart& chart, double left, double width, const 
         return taken > 0;
     };
     x_numbers_ = x_.few_values(values_of(chart, &ChartLine::x));
-    for (int most = std::max(2, static_cast<int>(axes_.width / (2.5 * text_))); !stand_apart() && most >= 2;
+    for (int most = std::max(2, static_cast<int>(axes_.width / (4 * text_))); !stand_apart() && most >= 2;
          --most)
         x_numbers_ = x_.ticks(most);
     axes_.width -= std::max(0.0, taken - left - width);
