@@ -9,16 +9,19 @@
 
 #include "app/check.hpp"
 #include "app/compare.hpp"
+#include "app/completion.hpp"
 #include "app/converge.hpp"
 #include "app/doctor.hpp"
 #include "app/draw.hpp"
 #include "app/figures.hpp"
+#include "app/manual.hpp"
 #include "app/new.hpp"
 #include "app/report.hpp"
 #include "app/reproduce.hpp"
 #include "app/run.hpp"
 #include "base/parallel.hpp"
 #include "scene/read.hpp"
+#include "scene/schema.hpp"
 
 namespace hibi {
 
@@ -64,7 +67,7 @@ void add_scene(Command& command, std::filesystem::path& scene, Overrides& overri
             [&overrides](const std::vector<std::string>& texts) { overrides = overrides_from(texts); },
             "override a value of [params], name=value; may be repeated")
         ->allow_extra_args(false)
-        ->type_name("TEXT");
+        ->type_name("NAME=VALUE");
 }
 
 void add_drawing(Command& command, RendererOptions& renderer) {
@@ -267,7 +270,7 @@ void add_new(CLI::App& app, int& status) {
     Command* create = app.add_subcommand("new", "Write a commented scene to start from");
     const auto o = options_of<NewOptions>();
     create->add_option("NAME", o->name, "file to write (default: my_scene.toml)");
-    create->add_option("--from", o->from, "start from this built-in scene");
+    create->add_option("--from", o->from, "start from this built-in scene")->type_name("SCENE");
     create->add_flag("--list", o->list, "list the built-in scenes");
     create->callback([o, &status] { status = new_command(*o); });
 }
@@ -278,6 +281,33 @@ void add_reproduce(CLI::App& app, int& status) {
     reproduce->add_option("FILE", o->file, "picture, film, table, page, or folder of a run")->required();
     reproduce->add_flag("--json", o->json, "print JSON: title, version, scene hash, parameters, command");
     reproduce->callback([o, &status] { status = reproduce_command(*o); });
+}
+
+void add_schema(CLI::App& app, int& status) {
+    Command* schema = app.add_subcommand("schema", "Print the JSON Schema of scene files, for editors");
+    schema->callback([&status] {
+        fmt::print("{}", scene_schema());
+        status = 0;
+    });
+}
+
+void add_completion(CLI::App& app, int& status) {
+    Command* completion = app.add_subcommand("completion", "Print the completion script of a shell");
+    const auto shell = options_of<std::string>();
+    completion->add_option("SHELL", *shell, "bash, zsh or fish")
+        ->required()
+        ->check(CLI::IsMember(completion_shells()));
+    completion->callback([shell, &app, &status] {
+        fmt::print("{}", completion_script(app, *shell));
+        status = 0;
+    });
+}
+
+void add_manual(CLI::App& app, int& status) {
+    app.add_subcommand("manual", "Print the man page, in roff")->callback([&app, &status] {
+        fmt::print("{}", manual_page(app));
+        status = 0;
+    });
 }
 
 void add_doctor(CLI::App& app, int& status) {
@@ -295,8 +325,9 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep,
-                           add_converge, add_check, add_preview, add_new, add_reproduce, add_doctor})
+    for (const auto add :
+         {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep, add_converge,
+          add_check, add_preview, add_new, add_reproduce, add_schema, add_completion, add_manual, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help

@@ -412,12 +412,7 @@ void make_comparison(const CompareOptions& options) {
 }
 
 int compare_command(const CompareOptions& options) {
-    try {
-        make_comparison(options);
-    } catch (const std::invalid_argument& error) {
-        fmt::print(stderr, "hibi compare: error: {}\n", error.what());
-        return 2;
-    }
+    make_comparison(options);
     fmt::print("{}\n", (options.output / "movie.mp4").string());
     return 0;
 }

@@ -28,8 +28,7 @@ struct CompareOptions {
 /// std::invalid_argument where the runs cannot be compared, std::runtime_error for the world's faults.
 void make_comparison(const CompareOptions& options);
 
-/// `hibi compare`: makes it and prints where it is. Returns the exit status: 2 where the runs cannot be
-/// compared.
+/// `hibi compare`: makes it and prints where it is.
 int compare_command(const CompareOptions& options);
 
 /// What tells runs apart: parameters that differ, else titles, else folders.

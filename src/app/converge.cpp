@@ -31,13 +31,17 @@ const char* criterion_of(const Scene& scene) {
     return strain && energy ? "" : strain ? "fixed strain" : energy ? "fracture energy" : "";
 }
 
-/// Coarse to fine.
+/// Coarse to fine. Throws std::invalid_argument where nothing is refined.
 std::vector<StudyPoint> sorted_points(const ConvergeOptions& options, const Grid& grid) {
     std::vector<StudyPoint> points = grid_points(options.scene, grid);
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < points.size(); ++k)
         order.emplace_back(-spacing_of(read_scene(options.scene, points[k].overrides)), k);
     std::ranges::stable_sort(order);
+    if (order.front().first == order.back().first)
+        throw std::invalid_argument(
+            fmt::format("{} does not change the spacing of the particles; hibi sweep varies any parameter",
+                        grid[0].first));
     std::vector<StudyPoint> sorted;
     for (const auto& [spacing, k] : order) sorted.push_back(points[k]);
     return sorted;
@@ -62,7 +66,7 @@ Scene with_other_criterion(Scene scene, double spacing) {
 int converge_command(ConvergeOptions options) {
     const Grid grid = read_grid(options.grid);
     if (grid.size() != 1 || grid[0].second.size() < 2)
-        throw std::runtime_error(
+        throw std::invalid_argument(
             "hibi converge needs one parameter with two values or more, for example "
             "-p spacing=2m,1m,0.5m");
     StudyOptions& study = options.study;
@@ -73,6 +77,9 @@ int converge_command(ConvergeOptions options) {
     std::vector<StudyPoint> points = sorted_points(options, grid);
     const std::size_t count = points.size();
     const Scene coarsest = read_scene(options.scene, points[0].overrides);
+    if (std::ranges::none_of(coarsest.materials, &Material::can_break))
+        throw std::invalid_argument(
+            "no material of this scene can break, so there is no failure load to compare");
     const std::string given = criterion_of(coarsest);
     const bool both = options.both && !given.empty();
     if (both) {
@@ -85,7 +92,7 @@ int converge_command(ConvergeOptions options) {
             point.name += other == "fixed strain" ? ",fixed_strain" : ",fracture_energy";
             const Scene scene = read_scene(options.scene, point.overrides);
             point.scene = study.folder / (point.name + ".toml");
-            point.fold = true;
+            point.folded = true;
             write_file(point.scene, write_scene(with_other_criterion(scene, spacing_of(coarsest))));
             points.push_back(point);
         }

@@ -7,6 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "app/process.hpp"
+#include "app/schema_line.hpp"
 #include "scene/suggest.hpp"
 
 namespace hibi {
@@ -101,7 +103,7 @@ int new_command(const NewOptions& options) {
     if (std::filesystem::exists(file))
         return refuse(fmt::format("{} exists already; give another name", file.string()));
     std::ofstream out(file, std::ios::binary);
-    out << text;
+    out << with_schema_line(text, schema_file(this_program()));
     out.close();
     if (!out) throw std::runtime_error(fmt::format("cannot write {}", file.string()));
     fmt::print("{}\n", file.string());

@@ -6,8 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <exception>
 #include <mutex>
@@ -15,6 +17,42 @@
 #include <thread>
 
 namespace hibi {
+
+namespace {
+
+/// The children that run now, for the handler of signals: a study that is ended takes its runs with it.
+std::array<std::atomic<pid_t>, 1024> children{};
+
+void end_children(int signal) {
+    for (const std::atomic<pid_t>& child : children)
+        if (const pid_t id = child.load(); id > 0) kill(id, SIGTERM);
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+}
+
+/// Counts a child among them while it runs.
+class Registered {
+ public:
+    explicit Registered(pid_t id) {
+        for (std::atomic<pid_t>& place : children) {
+            pid_t none = 0;
+            if (place.compare_exchange_strong(none, id)) {
+                place_ = &place;
+                return;
+            }
+        }
+    }
+    ~Registered() {
+        if (place_) place_->store(0);
+    }
+    Registered(const Registered&) = delete;
+    Registered& operator=(const Registered&) = delete;
+
+ private:
+    std::atomic<pid_t>* place_ = nullptr;
+};
+
+}  // namespace
 
 std::filesystem::path this_program() {
     std::error_code error;
@@ -38,6 +76,7 @@ ProcessEnd run_process(const std::vector<std::string>& words) {
     const int error = posix_spawnp(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     close(pipe_ends[1]);
+    const Registered registered(error == 0 ? child : 0);
     ProcessEnd end;
     if (error == 0) {
         char buffer[4096];
@@ -56,6 +95,7 @@ ProcessEnd run_process(const std::vector<std::string>& words) {
 
 void in_parallel(int count, int jobs, const std::function<void(int)>& work,
                  const std::function<void()>& done) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, end_children);
     std::atomic<int> next = 0;
     std::mutex mutex;  // guards done and error
     std::exception_ptr error;

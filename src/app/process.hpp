@@ -19,7 +19,8 @@ struct ProcessEnd {
 ProcessEnd run_process(const std::vector<std::string>& words);
 
 /// Calls work(0) .. work(count - 1) on so many threads; done(k) on the calling thread's behalf, one at a
-/// time. The first exception is thrown again when all have stopped.
+/// time. The first exception is thrown again when all have stopped. A signal that ends this program ends its
+/// children, too.
 void in_parallel(int count, int jobs, const std::function<void(int)>& work,
                  const std::function<void()>& done);
 

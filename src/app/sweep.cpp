@@ -50,6 +50,21 @@ std::optional<RunSummary> finished_run(const fs::path& folder, const std::string
     }
 }
 
+/// Every scene is read before anything is run; what is wrong with any of them is told at once.
+std::vector<Scene> read_scenes(const std::vector<StudyPoint>& points) {
+    std::vector<Scene> scenes;
+    std::string complaints;
+    for (const StudyPoint& point : points) {
+        try {
+            scenes.push_back(read_scene(point.scene, point.folded ? Overrides{} : point.overrides));
+        } catch (const SceneErrors& errors) {
+            complaints += fmt::format("{}{}:\n{}", complaints.empty() ? "" : "\n", point.name, errors.what());
+        }
+    }
+    if (!complaints.empty()) throw std::invalid_argument(complaints);
+    return scenes;
+}
+
 /// The line that says what went wrong.
 std::string error_line(const ProcessEnd& end) {
     if (end.status > 128) return fmt::format("ended by signal {}", end.status - 128);
@@ -78,7 +93,7 @@ std::vector<std::string> split_values(const std::string& text) {
     }
     for (const std::string& value : values)
         if (value.find_first_not_of(' ') == std::string::npos)
-            throw std::runtime_error(
+            throw std::invalid_argument(
                 fmt::format("\"{}\": a value is empty; write for example 2m,1m,0.5m", text));
     return values;
 }
@@ -88,10 +103,11 @@ Grid read_grid(const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw std::runtime_error(fmt::format("-p \"{}\" is not of the form name=value,value,...", text));
+            throw std::invalid_argument(
+                fmt::format("-p \"{}\" is not of the form name=value,value,...", text));
         const std::string name = text.substr(0, equals);
         if (std::ranges::find(grid, name, &Grid::value_type::first) != grid.end())
-            throw std::runtime_error(
+            throw std::invalid_argument(
                 fmt::format("-p {} is given twice; write all its values with commas", name));
         grid.emplace_back(name, split_values(text.substr(equals + 1)));
     }
@@ -119,64 +135,63 @@ std::vector<StudyPoint> grid_points(const fs::path& scene, const Grid& grid) {
 }
 
 std::vector<StudyRun> run_study(const std::vector<StudyPoint>& points, const StudyOptions& options) {
+    const std::vector<Scene> scenes = read_scenes(points);
     std::vector<StudyRun> runs(points.size());
-    std::vector<std::string> hashes;
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const Overrides none;
-        const Scene scene = read_scene(points[k].scene, points[k].fold ? none : points[k].overrides);
-        // In a scene whose parameters are folded in, their values stand in the scene it was made from.
-        hashes.push_back(scene_hash(scene));
         for (const auto& [name, text] : points[k].overrides) {
-            const auto p = std::ranges::find(scene.params, name, &Parameter::name);
-            runs[k].parameters.push_back(
-                {name, text, p == scene.params.end() ? 0 : p->value, p == scene.params.end() ? "" : p->unit});
+            StudyRun::Parameter parameter{name, text, 0, ""};
+            for (const Parameter& p : scenes[k].params)
+                if (p.name == name) parameter.value = p.value, parameter.unit = p.unit;
+            runs[k].parameters.push_back(parameter);
         }
         runs[k].criterion = points[k].criterion;
         runs[k].folder = (options.folder / points[k].name).string();
     }
-    Progress progress("running", "runs", options.quiet);
-    const int count = static_cast<int>(points.size());
-    int done = 0, kept = 0;
-    const auto run_one = [&](int k) {
-        StudyRun& run = runs[static_cast<std::size_t>(k)];
-        const StudyPoint& point = points[static_cast<std::size_t>(k)];
-        if (!options.force)
-            run.summary = finished_run(run.folder, hashes[static_cast<std::size_t>(k)], options.pictures);
+    const auto run_one = [&](StudyRun& run, const StudyPoint& point, const std::string& hash) {
+        if (!options.force) run.summary = finished_run(run.folder, hash, options.pictures);
         if (run.summary) {
             run.kept = true;
             run.status = run.summary->trusted ? 0 : 4;
             run.mode = mode_of(run.folder, *run.summary);
             return;
         }
-        std::vector<std::string> words{this_program().string(),
-                                       "run",
-                                       point.scene.string(),
-                                       "-o",
-                                       run.folder,
-                                       "-q",
-                                       "--force",
-                                       "--threads",
-                                       "1"};
-        if (!point.fold)
+        std::vector<std::string> words{
+            this_program().string(), "run", point.scene.string(), "-o", run.folder, "-q", "--threads", "1"};
+        if (!point.folded)
             for (const auto& [name, value] : point.overrides)
                 words.insert(words.end(), {"-p", name + "=" + value});
+        if (options.force) words.push_back("--force");
         if (!options.pictures) words.push_back("--no-pictures");
         const ProcessEnd end = run_process(words);
         run.status = end.status;
-        if (end.status == 0 || end.status == 4) {
-            run.summary = read_summary(run.folder);
-            run.mode = mode_of(run.folder, *run.summary);
-        } else {
+        if (end.status != 0 && end.status != 4) {
             run.error = error_line(end);
+            return;
         }
+        const RunSummary summary = read_summary(run.folder);
+        run.mode = mode_of(run.folder, summary);
+        run.summary = summary;
     };
-    const int jobs =
-        options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    in_parallel(count, jobs, run_one, [&] {
-        ++done;
-        progress.at(static_cast<double>(done) / count, done);
-    });
-    for (const StudyRun& run : runs) kept += run.kept;
+    Progress progress("running", "runs", options.quiet);
+    const int count = static_cast<int>(points.size());
+    int done = 0;
+    in_parallel(
+        count,
+        options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency())),
+        [&](int k) {
+            try {
+                run_one(runs[k], points[k], scene_hash(scenes[k]));
+            } catch (const std::exception& error) {  // one folder that cannot be read stops no other run
+                runs[k].status = 1;
+                runs[k].summary.reset();
+                runs[k].error = error.what();
+            }
+        },
+        [&] {
+            ++done;
+            progress.at(static_cast<double>(done) / count, done);
+        });
+    const auto kept = std::ranges::count_if(runs, &StudyRun::kept);
     if (kept > 0 && !options.quiet)
         fmt::print(stderr, "{} of {} runs were there already and kept; --force runs them again\n", kept,
                    count);

@@ -14,14 +14,14 @@ namespace hibi {
 /// Parameters with several values each, in the order given: -p spacing=2m,1m -p height=5m,10m.
 using Grid = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// Splits at commas that stand in no brackets. Throws std::runtime_error for an empty value.
+/// Splits at commas that stand in no brackets. Throws std::invalid_argument for an empty value.
 std::vector<std::string> split_values(const std::string& text);
 
 /// One run of a study, before it is run.
 struct StudyPoint {
     Overrides overrides;
     std::filesystem::path scene;  ///< file
-    bool fold = false;            ///< the overrides are folded into the scene's file already
+    bool folded = false;          ///< the overrides stand in the scene's file already
     std::string name;             ///< of its folder: "spacing=2m,height=5m"
     std::string criterion{};      ///< see StudyRun
 };
@@ -64,7 +64,7 @@ struct SweepOptions {
 /// study_status.
 int sweep_command(SweepOptions options);
 
-/// name=value,value ... Throws std::runtime_error.
+/// name=value,value ... Throws std::invalid_argument.
 Grid read_grid(const std::vector<std::string>& texts);
 
 }  // namespace hibi

@@ -290,9 +290,10 @@ Convergence judge_convergence(const std::vector<StudyRun>& runs) {
         const StudyRun &finest = *broken.back(), &before = *broken[broken.size() - 2];
         const double moved = failure_load(finest) / failure_load(before) - 1;
         const StudyRun::Parameter &p = before.parameters[0], &q = finest.parameters[0];
-        std::string text = fmt::format("{}the load at first break moves by {} % from {} = {} to {}",
-                                       criterion.empty() ? "" : "With " + criterion + " ", 100 * moved,
-                                       p.name, p.text, q.text);
+        std::string text =
+            fmt::format("{}the load at first break moves by {} % from {} = {} to {}",
+                        criterion.empty() ? "" : "With " + criterion + " ",
+                        (moved > 0 ? "+" : "") + decimal(100 * moved, 1), p.name, p.text, q.text);
         text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
         if (std::abs(moved) > most_movement) {
             result.warns = true;

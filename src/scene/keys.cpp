@@ -75,7 +75,7 @@ const std::vector<KeyBlock>& scene_blocks() {
             {"tension_only", flag, "", "false", "shortened bonds never break", "true"},
             {"weibull", table, "weibull", "", "random strength: each bond has a limit of its own",
              "{ shape = 12, seed = 7 }"},
-        }},
+        }, true, true},
         {"weibull", "weibull", Form::inner, "Weibull distribution of the bonds' limits.", {
             {"shape", quantity, "", "required", "the larger, the less scatter", "12"},
             {"seed", integer, "", "1", "another number, another sample", "7"},
@@ -98,7 +98,7 @@ const std::vector<KeyBlock>& scene_blocks() {
             {"velocity", vector, "m/s", "[0, 0]", "at the start", R"(["3 m/s", "0 m/s"])", {}, true},
             {"spin", quantity, "1/s", "0", "at the start, about its centre of mass, counter-clockwise",
              R"("2 rad/s")"},
-        }},
+        }, true, true},
         {"disc", "disc", Form::inner, "A full circle.", {
             {"centre", point, "m", "required", "", R"(["0 m", "0 m"])"},
             {"radius", quantity, "m", "required", "", R"("1 m")"},
@@ -178,7 +178,7 @@ const std::vector<KeyBlock>& scene_blocks() {
             {"time_step", quantity, "s", "chosen", "must be below the stable limit", R"("1 ms")"},
             {"time_step_factor", quantity, "", "0.8, or 0.5 where bonds can break",
              "the chosen time step over the stable limit, below 1", "0.5"},
-        }},
+        }, true, true},
         {"view", "[view]", Form::single, "What the pictures look like.", {
             {"size", size, "", "[1920, 1080]", "pixels, even numbers", "[1280, 720]"},
             {"colour", table, "colour", "", "what colours the particles",

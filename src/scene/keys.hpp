@@ -45,6 +45,7 @@ struct KeyBlock {
     std::string meaning{};
     std::vector<Key> keys{};
     bool available = true;
+    bool required = false;  ///< without it there is no scene
 
     const Key* find(const std::string& key) const;
     std::vector<std::string> key_names() const;

@@ -312,10 +312,13 @@ void read_blocks(const Value& document, ReadContext& context, Scene& scene) {
     if (auto block = single(document, context, "strip")) set(scene.strip.at, block->moments("at"));
     for (const char* later : {"test", "contact"}) single(document, context, later);
     list(document, context, "rigid");
-    for (const char* needed : {"material", "body"})
-        if (needed[0] == 'm' ? scene.materials.empty() : scene.bodies.empty())
-            context.problems.add(needed, fmt::format("missing block {}", scene_block(needed).title),
+    for (const KeyBlock& block : scene_blocks()) {
+        if (!block.required || block.form == KeyBlock::Form::single) continue;  // [run] is missed above
+        const Value* value = document.find(block.name);
+        if (!value || (value->items.empty() && value->entries.empty()))
+            context.problems.add(block.name, "missing block " + block.title,
                                  "`hibi new` writes a scene to start from");
+    }
 }
 
 }  // namespace hibi

@@ -65,13 +65,15 @@ TEST_F(New, WritesAStarterThatIsARightScene) {
     EXPECT_GT(build(scene).model.bonds_cut, 0);
 }
 
-TEST_F(New, CopiesABuiltInSceneToTheByte) {
+TEST_F(New, CopiesABuiltInSceneToTheByteBelowItsFirstLine) {
     EXPECT_EQ(new_command({folder_ / "copy.toml", "bending_fine", false}), 0);
     const auto read = [](const std::filesystem::path& file) {
         std::ifstream in(file, std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(in), {});
     };
-    EXPECT_EQ(read(folder_ / "copy.toml"), read(fine));
+    const std::string text = read(fine);
+    ASSERT_TRUE(text.starts_with("#:schema ../build/release/scene.schema.json\n"));
+    EXPECT_EQ(read(folder_ / "copy.toml"), text.substr(text.find('\n') + 1));  // no schema beside this test
 }
 
 TEST_F(New, NeverOverwritesAndKnowsItsScenes) {

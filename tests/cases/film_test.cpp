@@ -1,10 +1,8 @@
 // The program as a user calls it: one small scene from file to film, and what must not change it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,6 +12,7 @@
 
 #include "base/hash.hpp"
 #include "record/run_folder.hpp"
+#include "support/call.hpp"
 
 namespace hibi {
 namespace {
@@ -27,19 +26,6 @@ std::string text_of(const fs::path& file) {
     return text.str();
 }
 
-struct Answer {
-    int status = -1;
-    std::string out;  ///< standard output and error together
-};
-Answer call(const std::string& command) {
-    Answer answer;
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    char buffer[4096];
-    while (const std::size_t got = fread(buffer, 1, sizeof buffer, pipe)) answer.out.append(buffer, got);
-    const int status = pclose(pipe);
-    answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return answer;
-}
 Answer hibi(const std::string& arguments, const std::string& environment = {}) {
     return call(environment + " " HIBI_PROGRAM " " + arguments);
 }

@@ -1,0 +1,87 @@
+// What the program brings for editors and shells, as they use it.
+#include <gtest/gtest.h>
+
+#include "support/call.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace hibi {
+namespace {
+
+TEST(WebNew, ScenesNameTheSchemaOfTheProgramAndAreAcceptedByIt) {
+    const TemporaryFolder folder;
+    const std::string in_folder = "cd " + folder.path().string() + " && ";
+    ASSERT_EQ(
+        call(in_folder + HIBI_PROGRAM " new starter && " HIBI_PROGRAM " new copy --from bending_fine").status,
+        0);
+    const std::string lint = HIBI_WEB "/node_modules/.bin/taplo lint --no-auto-config ";
+    Answer answer = call(in_folder + lint + "starter.toml copy.toml");
+    EXPECT_EQ(answer.status, 0) << answer.out;
+    ASSERT_EQ(call(in_folder + "sed -i 's/^ramp .*/ramp = true/' starter.toml copy.toml").status, 0);
+    for (const char* name : {"starter.toml", "copy.toml"}) {
+        answer = call(in_folder + lint + name);
+        EXPECT_NE(answer.status, 0) << name;
+        EXPECT_NE(answer.out.find("true is not of types"), std::string::npos) << answer.out;
+    }
+}
+
+/// What bash offers for these words, the last of which is being typed, one blank between two.
+std::string offered_by_bash(const std::string& words) {
+    const Answer answer =
+        call("bash -c 'set -e; source <(" HIBI_PROGRAM " completion bash); COMP_WORDS=(" + words +
+             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _hibi; echo \"${COMPREPLY[*]}\"'");
+    EXPECT_EQ(answer.status, 0) << answer.out;
+    return answer.out.substr(0, answer.out.size() - 1);
+}
+
+TEST(Completion, BashOffersCommandsOptionsAndChoices) {
+    EXPECT_EQ(offered_by_bash("hibi ren"), "render");
+    EXPECT_EQ(offered_by_bash("hibi --vers"), "--version");
+    EXPECT_EQ(offered_by_bash("hibi run --thr"), "--threads");
+    EXPECT_EQ(offered_by_bash("hibi run scene.toml --gl \"\""), "osmesa egl");
+    EXPECT_EQ(offered_by_bash("hibi run --gl = e"), "egl");
+    EXPECT_EQ(offered_by_bash("hibi completion \"\""), "bash zsh fish");
+    // Nothing of its own for a file: bash completes it.
+    EXPECT_EQ(offered_by_bash("hibi run \"\""), "");
+    EXPECT_EQ(offered_by_bash("hibi run -o \"\""), "");
+    EXPECT_NE(call(HIBI_PROGRAM " completion bash").out.find("complete -o default -F _hibi hibi\n"),
+              std::string::npos);
+}
+
+TEST(Completion, FishOffersCommandsOptionsChoicesAndFiles) {
+    const TemporaryFolder folder;
+    const auto offered = [&](const std::string& line) {
+        const Answer answer = call("cd " + folder.path().string() +
+                                   " && touch my.toml && HOME=$PWD fish --no-config -c '" HIBI_PROGRAM
+                                   " completion fish | source; complete -C \"" +
+                                   line + "\"' | cut -f 1 | paste -sd ' '");
+        EXPECT_EQ(answer.status, 0);
+        return answer.out;
+    };
+    EXPECT_EQ(offered("hibi ren"), "render\n");
+    EXPECT_EQ(offered("hibi run --thr"), "--threads\n");
+    EXPECT_EQ(offered("hibi run my.toml --gl "), "egl osmesa\n");
+    EXPECT_EQ(offered("hibi completion "), "bash fish zsh\n");
+    EXPECT_EQ(offered("hibi run m"), "my.toml\n");
+    EXPECT_EQ(offered("hibi doctor m"), "\n");
+}
+
+TEST(Completion, ZshReadsItsScript) {
+    const Answer answer = call("bash -c 'zsh -n <(" HIBI_PROGRAM " completion zsh)'");
+    EXPECT_EQ(answer.status, 0);
+    EXPECT_EQ(answer.out, "");
+}
+
+TEST(Completion, AnotherShellIsRefused) { EXPECT_EQ(call(HIBI_PROGRAM " completion tcsh").status, 2); }
+
+TEST(Manual, IsSetWithoutWarningsAndHoldsEveryCommand) {
+    const Answer page =
+        call("bash -o pipefail -c '" HIBI_PROGRAM " manual | groff -man -ww -Tascii -P-c -P-b -P-u'");
+    EXPECT_EQ(page.status, 0);
+    EXPECT_EQ(page.out.find("warning"), std::string::npos) << page.out;
+    for (const char* part : {"hibi run SCENE", "hibi new [NAME]", "--gl osmesa|egl",
+                             "4 done, but the energy balance", "hibi check scene.toml"})
+        EXPECT_NE(page.out.find(part), std::string::npos) << part << page.out;
+}
+
+}  // namespace
+}  // namespace hibi
