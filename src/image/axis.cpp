@@ -15,14 +15,18 @@ Scale scale_for(double largest, const std::string& unit) {
     if (unit.empty()) {
         if (largest >= 0.5 && largest < 1e5) return {1, ""};
         if (largest >= 1e-4 && largest < 0.5) return {100, "%"};
-        std::string power;
-        static const char* const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-        for (const char c : fmt::format("{}", 3 * thousands)) power += c == '-' ? "⁻" : raised[c - '0'];
-        return {std::pow(10, -3 * thousands), "×10" + power};
+        return {std::pow(10, -3 * thousands), "×" + power_of_ten(3 * thousands)};
     }
     static const char* const prefixes[] = {"p", "n", "µ", "m", "", "k", "M", "G", "T"};
     const int step = std::clamp(thousands, -4, unit == "s" ? 0 : unit == "m" ? 1 : 4);
     return {std::pow(10, -3 * step), prefixes[step + 4] + unit};
+}
+
+std::string power_of_ten(int exponent) {
+    static const char* const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = "10";
+    for (const char c : fmt::format("{}", exponent)) text += c == '-' ? "⁻" : raised[c - '0'];
+    return text;
 }
 
 std::string with_unit(const std::string& title, const Scale& scale) {
@@ -65,6 +69,28 @@ Ticks round_ticks(double low, double high, int most) {
         ticks.at.push_back(k * step);
     ticks.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
     if (!whole(step * std::pow(10, ticks.decimals))) ++ticks.decimals;  // 2.5
+    return ticks;
+}
+
+std::vector<double> log_ticks(double low, double high, int most, std::vector<double>* minor) {
+    const int first = static_cast<int>(std::floor(std::log10(low))) - 1;
+    const int last = static_cast<int>(std::ceil(std::log10(high))) + 1;
+    const auto inside = [&](double v) { return v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9); };
+    const auto ticks_with = [&](std::initializer_list<int> leads, int decades) {
+        std::vector<double> ticks;
+        for (int e = first; e <= last; ++e)
+            for (const int lead : leads)
+                if (e % decades == 0 && inside(lead * std::pow(10, e)))
+                    ticks.push_back(lead * std::pow(10, e));
+        return ticks;
+    };
+    std::vector<double> ticks = ticks_with({1, 2, 5}, 1);
+    if (ticks.size() < 2) return round_ticks(low, high, most).at;
+    for (int decades = 1; static_cast<int>(ticks.size()) > most && decades <= last - first; ++decades)
+        ticks = ticks_with({1}, decades);
+    if (!minor || high / low > 1e4) return ticks;
+    for (const double v : ticks_with({2, 3, 4, 5, 6, 7, 8, 9}, 1))
+        if (std::ranges::find(ticks, v) == ticks.end()) minor->push_back(v);
     return ticks;
 }
 

@@ -14,6 +14,9 @@ struct Scale {
 /// 0.5 are given in percent, very small ones with a power of ten.
 Scale scale_for(double largest, const std::string& unit);
 
+/// "10⁻⁶"
+std::string power_of_ten(int exponent);
+
 /// "title (unit)", or the title alone.
 std::string with_unit(const std::string& title, const Scale& scale);
 
@@ -27,6 +30,11 @@ struct Ticks {
     int decimals = 0;  ///< needed to tell them apart
 };
 Ticks round_ticks(double low, double high, int most);
+
+/// The same on a logarithmic axis, 0 < low < high: powers of ten and, where there is room, 2 and 5 times
+/// them; ticks evenly apart in number where these are fewer than two. `minor`, if given, takes the multiples
+/// of powers of ten (2, 3, ... 9 times them) that are none, over at most four decades.
+std::vector<double> log_ticks(double low, double high, int most, std::vector<double>* minor = nullptr);
 
 /// The largest 1, 2 or 5 times a power of ten that is not above the limit (> 0).
 double round_below(double limit);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/axes.hpp"
+
 namespace hibi {
 
 namespace {
@@ -115,26 +117,18 @@ void Inset::draw_axes(cairo_t* cairo) const {
         style.size = 0.9 * text_;
         type_.draw(cairo, broken_max_, rect_.x + rect_.width, axes_.y + 0.33 * style.size, style);
     }
-    style = {.size = 0.9 * text_, .colour = theme_.faint_text, .align = Align::right};
-    cairo_set_line_width(cairo, 1);
-    for (const double tick : y_ticks_.at) {
-        const double y = axes_.y + axes_.height * (1 - (tick - y_low_) / (y_high_ - y_low_));
-        set_colour(cairo, theme_.grid);
-        stroke_line(cairo, axes_.x, crisp(y), axes_.x + axes_.width, crisp(y));
-        type_.draw(cairo, decimal(tick, y_ticks_.decimals), axes_.x - 0.5 * text_, y + 0.35 * style.size,
-                   style);
-    }
+    std::vector<Tick> x, y;
+    for (const double tick : x_ticks_.at)
+        x.push_back(
+            {axes_.x + axes_.width * (tick - x_low_) / (x_high_ - x_low_), decimal(tick, x_ticks_.decimals)});
+    for (const double tick : y_ticks_.at)
+        y.push_back({axes_.y + axes_.height * (1 - (tick - y_low_) / (y_high_ - y_low_)),
+                     decimal(tick, y_ticks_.decimals)});
+    const AxesStyle look{.theme = theme_, .text = text_};
+    Ink ink(cairo, type_);
+    hibi::draw_axes(ink, axes_, x, y, look);
+    style = number_style(look);
     style.align = Align::centre;
-    const double foot = axes_.y + axes_.height;
-    for (const double tick : x_ticks_.at) {
-        const double x = axes_.x + axes_.width * (tick - x_low_) / (x_high_ - x_low_);
-        set_colour(cairo, theme_.line);
-        stroke_line(cairo, crisp(x), foot, crisp(x), foot + 0.3 * text_);
-        type_.draw(cairo, decimal(tick, x_ticks_.decimals), x, foot + 1.35 * text_, style);
-    }
-    set_colour(cairo, theme_.line);
-    stroke_line(cairo, crisp(axes_.x), axes_.y, crisp(axes_.x), foot);
-    stroke_line(cairo, crisp(axes_.x), crisp(foot), axes_.x + axes_.width, crisp(foot));
     style.size = text_;
     type_.draw(cairo, x_title_, axes_.x + axes_.width / 2, rect_.y + rect_.height - 0.1 * text_, style);
 }

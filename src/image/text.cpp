@@ -207,10 +207,21 @@ double Typesetter::width(const std::string& text, const TextStyle& style) const 
 
 void Typesetter::draw(cairo_t* cairo, const std::string& text, double x, double y,
                       const TextStyle& style) const {
+    cairo_set_source_rgb(cairo, style.colour[0], style.colour[1], style.colour[2]);
+    outlines(cairo, text, x, y, style, [&](double thicker) {
+        if (thicker > 0) {
+            cairo_set_line_width(cairo, thicker);
+            cairo_stroke_preserve(cairo);
+        }
+        cairo_fill(cairo);
+    });
+}
+
+void Typesetter::outlines(cairo_t* cairo, const std::string& text, double x, double y, const TextStyle& style,
+                          const std::function<void(double)>& paint) const {
     const std::u32string points = decode(text);
     if (style.align != Align::left)
         x -= impl_->width(points, style) * (style.align == Align::right ? 1 : 0.5);
-    cairo_set_source_rgb(cairo, style.colour[0], style.colour[1], style.colour[2]);
     impl_->walk(points, style, [&](const Glyph& glyph, double at) {
         int next = 0;
         const auto px = [&](int i) { return x + at + style.size * glyph.points[next + i][0]; };
@@ -222,12 +233,8 @@ void Typesetter::draw(cairo_t* cairo, const std::string& text, double x, double 
             if (step == Glyph::curve) cairo_curve_to(cairo, px(0), py(0), px(1), py(1), px(2), py(2));
             next += step == Glyph::curve ? 3 : 1;
         }
-        if (glyph.substitute &&
-            style.strong) {  // one weight only: thicken it to stand beside Inter's semi-bold
-            cairo_set_line_width(cairo, 0.035 * style.size);
-            cairo_stroke_preserve(cairo);
-        }
-        cairo_fill(cairo);
+        // The substitute has one weight only: thickened it stands beside Inter's semi-bold.
+        paint(glyph.substitute && style.strong ? 0.035 * style.size : 0);
     });
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,10 @@ class Typesetter {
     double width(const std::string& text, const TextStyle& style) const;  ///< (pixels)
     /// With the baseline at y, and x at the left end, middle or right end.
     void draw(cairo_t* cairo, const std::string& text, double x, double y, const TextStyle& style) const;
+    /// The same for whoever paints otherwise: makes the outline of one glyph after another Cairo's current
+    /// path and calls paint with the width (pixels) of the stroke that thickens it, mostly 0.
+    void outlines(cairo_t* cairo, const std::string& text, double x, double y, const TextStyle& style,
+                  const std::function<void(double)>& paint) const;
     /// The text, or as much of its beginning as fits the width together with an ellipsis.
     std::string shortened(const std::string& text, const TextStyle& style, double width) const;
     /// Broken into at most `lines` lines at spaces, or anywhere between characters of Japanese; the last line

@@ -25,7 +25,7 @@ constexpr Theme dark{
     .crack_old = rgb(0xf4f6fb),
     .curve = rgb(0x74bcff),
     .curve_second = rgb(0xff5c93),
-    .series = {rgb(0x74bcff), rgb(0xff9f45), rgb(0x62d493), rgb(0xff5c93), rgb(0xc3a6ff), rgb(0xe6d35a)},
+    .series = {rgb(0x74bcff), rgb(0xffa630), rgb(0x73f9b8), rgb(0xf85093), rgb(0x815cee), rgb(0x7f800c)},
     .rim = 0.35f};
 
 constexpr Theme light{
@@ -42,7 +42,7 @@ constexpr Theme light{
     .crack_old = rgb(0xffffff),
     .curve = rgb(0x1259b0),
     .curve_second = rgb(0xd1124f),
-    .series = {rgb(0x1259b0), rgb(0xc25700), rgb(0x16774a), rgb(0xd1124f), rgb(0x6a3fc0), rgb(0x7d6600)},
+    .series = {rgb(0x1259b0), rgb(0xf2590a), rgb(0x359792), rgb(0x71115b), rgb(0xbd68f2), rgb(0x5e5303)},
     .rim = 0.30f};
 
 constexpr Theme print{
@@ -59,7 +59,7 @@ constexpr Theme print{
     .crack_old = rgb(0xffffff),
     .curve = rgb(0x0b4a99),
     .curve_second = rgb(0xb8003c),
-    .series = {rgb(0x0b4a99), rgb(0xb04f00), rgb(0x1b6b3d), rgb(0xb8003c), rgb(0x55309c), rgb(0x665300)},
+    .series = {rgb(0x0b4a99), rgb(0xee5a0a), rgb(0x359792), rgb(0x6a0f55), rgb(0xb968ef), rgb(0x5e5303)},
     .rim = 0.0f};
 
 }  // namespace

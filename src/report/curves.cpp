@@ -59,10 +59,10 @@ Chart load_chart(const History& history, const Events& events) {
 Chart energy_chart(const History& history, const Events& events) {
     Chart chart{.title = {}, .x = {"Time", "s"}, .y = {"Energy", "J"}};
     const std::array<std::pair<const char*, double HistoryRow::*>, 6> kinds{
-        {{"work of loads", &HistoryRow::work},
+        {{"work", &HistoryRow::work},
          {"elastic", &HistoryRow::elastic},
          {"kinetic", &HistoryRow::kinetic},
-         {"released by breaks", &HistoryRow::released},
+         {"released", &HistoryRow::released},
          {"damped", &HistoryRow::damped},
          {"contact", &HistoryRow::contact}}};
     double largest = 0;

@@ -50,6 +50,16 @@ TEST(Ticks, ReachBothEndsOfARoundRange) {
     EXPECT_EQ(round_ticks(0, 2.5, 3).decimals, 1);
 }
 
+TEST(Ticks, OfALogarithmicAxisArePowersOfTenWithTwoAndFiveWhereThereIsRoom) {
+    EXPECT_EQ(log_ticks(0.9, 110, 9), (Numbers{1, 2, 5, 10, 20, 50, 100}));
+    EXPECT_EQ(log_ticks(0.9, 110, 6), (Numbers{1, 10, 100}));
+    EXPECT_EQ(log_ticks(0.5, 2e6, 4), (Numbers{1, 100, 10'000, 1'000'000}));
+    EXPECT_EQ(log_ticks(3.1, 4.6, 5), (Numbers{3.5, 4, 4.5}));
+    Numbers minor;
+    log_ticks(0.9, 31, 3, &minor);
+    EXPECT_EQ(minor, (Numbers{0.9, 2, 3, 4, 5, 6, 7, 8, 9, 20, 30}));
+}
+
 TEST(RoundBelow, IsTheLargestRoundNumberThatFits) {
     EXPECT_DOUBLE_EQ(round_below(9.9), 5);
     EXPECT_DOUBLE_EQ(round_below(5), 5);

@@ -43,7 +43,7 @@ TEST(RunCharts, EndWithTheSeparationAndMarkTheEvents) {
 TEST(RunCharts, EnergiesThatNobodyWouldSeeAreLeftOut) {
     const Chart energies = run_charts(history(), events())[1];
     ASSERT_EQ(energies.lines.size(), 2u);  // the kinetic energy becomes large only in flight
-    EXPECT_EQ(energies.lines[0].label, "work of loads");
+    EXPECT_EQ(energies.lines[0].label, "work");
     EXPECT_EQ(energies.lines[1].label, "elastic");
     EXPECT_EQ(run_charts(history(), {})[1].lines.size(), 1u) << "without a separation it is all that counts";
 }
