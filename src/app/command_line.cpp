@@ -20,6 +20,7 @@
 #include "app/reproduce.hpp"
 #include "app/run.hpp"
 #include "base/parallel.hpp"
+#include "film/encoder.hpp"
 #include "scene/read.hpp"
 #include "scene/schema.hpp"
 
@@ -83,7 +84,18 @@ void add_drawing(Command& command, RendererOptions& renderer) {
     command.add_option("--shaders", renderer.shaders, "read the shaders from this folder");
 }
 
+void add_formats(Command& command, std::vector<std::string>& formats) {
+    command
+        .add_option("--formats", formats,
+                    "films to make: mp4, gif, webm, apng, webp (default: [movie] formats)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(film_formats()))
+        ->type_name("TEXT");
+}
+
 void add_movie(Command& command, DrawOptions& draw) {
+    add_formats(command, draw.formats);
     command.add_flag_callback(
         "--no-movie", [&draw] { draw.movie = draw.frames = false; },
         "neither frames nor film: poster, figures and report only");
@@ -202,6 +214,7 @@ void add_compare(CLI::App& app, int& status) {
             },
             "WIDTHxHEIGHT (default: that of the first run's film)")
         ->type_name("TEXT");
+    add_formats(*compare, o->formats);
     compare->add_flag("--force", o->force, "write into a folder that holds other things");
     add_drawing(*compare, o->renderer);
     add_quiet(*compare, o->quiet);

@@ -11,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "app/draw.hpp"
 #include "app/frame_writer.hpp"
 #include "app/progress.hpp"
 #include "app/run_drawing.hpp"
@@ -162,6 +163,7 @@ class Comparison {
         plan_members(members_, clock_);
         const DrawingStyle first = film_style(members_[0].scene, *members_[0].run);
         view_ = first.view;
+        view_.transparent = false;  // panels stand side by side on one background
         if (options.size) view_.width = (*options.size)[0], view_.height = (*options.size)[1];
         const std::array<double, 2> range = common_range(members_, view_);
         std::erase_if(view_.show, [](const std::string& part) { return part == "load" || part == "counts"; });
@@ -394,8 +396,9 @@ void make_comparison(const CompareOptions& options) {
     const Video video{.width = comparison.width(),
                       .height = comparison.height(),
                       .fps = movie.fps,
-                      .metadata = {{"title", provenance.title}, {"comment", to_comment(provenance)}}};
-    FrameWriter writer(options.output, 2, video, comparison.width(), comparison.height());
+                      .metadata = {{"title", provenance.title}, {"comment", to_comment(provenance)}},
+                      .gif_limit = movie.gif_limit};
+    FrameWriter writer(options.output, 2, options.formats.empty() ? movie.formats : options.formats, video);
     Progress progress("drawing", "frames", options.quiet);
     const int poster = comparison.poster();
     for (int k = 0; k < comparison.frames(); ++k) {
@@ -413,7 +416,7 @@ void make_comparison(const CompareOptions& options) {
 
 int compare_command(const CompareOptions& options) {
     make_comparison(options);
-    fmt::print("{}\n", (options.output / "movie.mp4").string());
+    fmt::print("{}\n", (options.output / film_in(options.output)).string());
     return 0;
 }
 

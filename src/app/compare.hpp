@@ -18,6 +18,7 @@ struct CompareOptions {
     std::optional<EventName> align{};              ///< event at which all clocks agree; absent: zero
     int columns = 0;                               ///< panels in a row; 0: so that the bodies are largest
     std::optional<std::array<int, 2>> size{};      ///< (pixels); absent: that of the first run's film
+    std::vector<std::string> formats{};            ///< of the film; empty: those of the first run
     bool force = false;                            ///< write into a folder that holds other things
     bool quiet = false;
     RendererOptions renderer{};

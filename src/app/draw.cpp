@@ -24,6 +24,17 @@ PngText png_text(const RunReader& run, double time) {
 
 }  // namespace
 
+std::string film_in(const std::filesystem::path& folder) {
+    for (const std::string& format : film_formats())
+        if (std::filesystem::exists(folder / ("movie." + format))) return "movie." + format;
+    return {};
+}
+
+std::vector<std::string> films(const Scene& scene, const DrawOptions& options) {
+    if (!options.movie) return {};
+    return options.formats.empty() ? scene.movie.formats : options.formats;
+}
+
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     const RunReader run(folder);
@@ -33,15 +44,15 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
 
     const int frames = options.movie || options.frames ? static_cast<int>(plan.time.size()) : 0;
     if (options.frames) std::filesystem::create_directories(folder / "frames");
-    std::optional<Video> video;
-    if (options.movie)
-        video = Video{
-            .width = scene.view.width,
-            .height = scene.view.height,
-            .fps = scene.movie.fps,
-            .metadata = {{"title", scene.title}, {"comment", to_comment(provenance_of(run.summary()))}}};
-    FrameWriter writer(folder, options.frames ? std::max(1, options.workers) : 0, video, scene.view.width,
-                       scene.view.height);
+    FrameWriter writer(
+        folder, options.frames ? std::max(1, options.workers) : 0, films(scene, options),
+        {.width = scene.view.width,
+         .height = scene.view.height,
+         .fps = scene.movie.fps,
+         .metadata = {{"title", scene.title}, {"comment", to_comment(provenance_of(run.summary()))}},
+         .transparent = scene.view.transparent,
+         .background = theme(scene.view.theme).background,
+         .gif_limit = scene.movie.gif_limit});
     const auto write_poster = [&](const Image& image) {
         write_png(folder / "poster.png", image,
                   {.text = png_text(run, plan.time[plan.poster]), .small = true});

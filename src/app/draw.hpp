@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "record/run_folder.hpp"
 #include "render/renderer.hpp"
@@ -10,10 +12,11 @@ namespace hibi {
 
 struct DrawOptions {
     RendererOptions renderer{};
-    bool movie = true;   ///< movie.mp4 beside frames and poster
-    bool frames = true;  ///< keep the PNG frames
-    bool report = true;  ///< figures and report; not by draw_run itself
-    int workers = 2;     ///< threads that hash and write PNG frames; the pictures do not depend on it
+    bool movie = true;                   ///< films beside frames and poster
+    std::vector<std::string> formats{};  ///< of the films; empty: what the scene says
+    bool frames = true;                  ///< keep the PNG frames
+    bool report = true;                  ///< figures and report; not by draw_run itself
+    int workers = 2;  ///< threads that hash and write PNG frames; the pictures do not depend on it
     std::function<void(int done, int total)> progress{};
 };
 
@@ -23,11 +26,17 @@ struct DrawResult {
     std::string renderer;
 };
 
-/// frames/, frames.json, movie.mp4 and poster.png of a recorded run, from its states alone: the one way
-/// pictures are made, by `run` as by `render`. Frames, PNG workers and the encoder overlap. Pictures of an
-/// earlier drawing are removed first. Without movie and frames only the poster is drawn. Errors
-/// (std::runtime_error) name the file; what was finished by then stays.
+/// frames/, frames.json, movie.mp4 (or other formats) and poster.png of a recorded run, from its states
+/// alone: the one way pictures are made, by `run` as by `render`. Frames, PNG workers and the encoder
+/// overlap. Pictures of an earlier drawing are removed first. Without movie and frames only the poster is
+/// drawn. Errors (std::runtime_error) name the file; what was finished by then stays.
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options);
+
+/// The formats that films are made in: none, those of the options, or those of the scene.
+std::vector<std::string> films(const Scene& scene, const DrawOptions& options);
+
+/// Name of the film in a folder, the most usual format first; empty where there is none.
+std::string film_in(const std::filesystem::path& folder);
 
 struct PreviewOptions {
     std::filesystem::path scene, png = "setup.png";

@@ -8,6 +8,7 @@
 #include "app/notch_line.hpp"
 #include "app/picture.hpp"
 #include "app/run_drawing.hpp"
+#include "image/background.hpp"
 #include "image/overlay.hpp"
 #include "image/png.hpp"
 
@@ -52,13 +53,15 @@ void draw_setup(const Scene& scene, const std::filesystem::path& png, const Rend
         picture.camera = camera_for(box, reserved, overlay.plot());
 
     Image image(view.width, view.height);
-    renderer.draw(picture, image);
     OverlayFrame over{.pixels_per_metre = picture.camera.scale, .symbols = {}};
     const double unit = symbol_unit(view);
     for (const Mark& mark : marks) over.symbols.push_back(place_mark(mark, x, y, picture.camera, 1, unit));
     for (const NotchLine& notch : find_notches(topology))
         over.symbols.push_back(place_notch(notch, topology, x, y, picture.camera));
-    overlay.draw(image, over);
+    draw_on_background(view, image, [&](const Rgb& background, Image& on) {
+        renderer.draw(picture, background, on);
+        overlay.draw(on, over);
+    });
     write_png(png, image,
               {.text = {{"Title", scene.title}, {"Software", "hibi " HIBI_VERSION}}, .small = true});
 }

@@ -32,7 +32,7 @@ struct FrameWriter::Impl {
     std::exception_ptr error;  // the first of any thread; all stop then
     double encode_seconds = 0;
 
-    std::optional<Encoder> encoder;
+    std::vector<std::unique_ptr<Encoder>> encoders;
     bool writes = false;
     std::vector<std::thread> threads;
 
@@ -84,24 +84,25 @@ struct FrameWriter::Impl {
 
     void encode(const Job& job) {
         const auto begin = std::chrono::steady_clock::now();
-        encoder->add(job.image.bgra.data(), job.image.stride());
+        for (const auto& encoder : encoders) encoder->add(job.image);
         encode_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
 };
 
-FrameWriter::FrameWriter(std::filesystem::path folder, int workers, const std::optional<Video>& video,
-                         int width, int height)
+FrameWriter::FrameWriter(std::filesystem::path folder, int workers, const std::vector<std::string>& formats,
+                         const Video& video)
     : impl_(std::make_unique<Impl>()) {
     Impl& impl = *impl_;
     impl.folder = std::move(folder);
     impl.writes = workers > 0;
     // One being drawn, one per thread at work, and two waiting for each queue.
-    impl.free.assign(workers + 6, Image(width, height));
-    if (video) impl.encoder.emplace(impl.folder / "movie.mp4", *video);
+    impl.free.assign(workers + 6, Image(video.width, video.height));
+    for (const std::string& format : formats)
+        impl.encoders.push_back(open_encoder(impl.folder / ("movie." + format), video));
     for (int k = 0; k < workers; ++k)
         impl.threads.emplace_back(
             [&impl] { impl.work_through(impl.to_write, [&](Job& job) { impl.write(job); }); });
-    if (video)
+    if (!impl.encoders.empty())
         impl.threads.emplace_back(
             [&impl] { impl.work_through(impl.to_encode, [&](Job& job) { impl.encode(job); }); });
 }
@@ -127,9 +128,9 @@ void FrameWriter::add(Image image, FrameInfo info, PngText text) {
         impl_->rethrow();
         job->index = impl_->done.size();
         impl_->done.push_back(job->info);
-        job->uses_left = (impl_->writes ? 1 : 0) + (impl_->encoder ? 1 : 0);
+        job->uses_left = (impl_->writes ? 1 : 0) + (impl_->encoders.empty() ? 0 : 1);
         if (impl_->writes) impl_->to_write.push_back(job);
-        if (impl_->encoder) impl_->to_encode.push_back(job);
+        if (!impl_->encoders.empty()) impl_->to_encode.push_back(job);
         if (job->uses_left == 0) impl_->free.push_back(std::move(job->image));
     }
     impl_->changed.notify_all();
@@ -143,12 +144,9 @@ std::vector<FrameInfo> FrameWriter::finish() {
     impl_->changed.notify_all();
     for (std::thread& thread : impl_->threads) thread.join();
     impl_->rethrow();
-    if (impl_->encoder) {
-        const auto begin = std::chrono::steady_clock::now();
-        impl_->encoder->finish();
-        impl_->encode_seconds +=
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    }
+    const auto begin = std::chrono::steady_clock::now();
+    for (const auto& encoder : impl_->encoders) encoder->finish();
+    impl_->encode_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return impl_->done;
 }
 

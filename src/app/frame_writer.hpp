@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "film/encoder.hpp"
@@ -11,13 +11,13 @@
 namespace hibi {
 
 /// Takes finished frames from the thread that draws them: some threads hash and write them as PNG, one
-/// encodes them in order. Holds a fixed number of pictures, so a slow disk or encoder makes the drawing wait.
-/// An error of any thread is thrown by the next call.
+/// encodes them in order, in every format. Holds a fixed number of pictures, so a slow disk or encoder makes
+/// the drawing wait. An error of any thread is thrown by the next call.
 class FrameWriter {
  public:
-    /// Without a video nothing is encoded; workers = 0: no PNG and no hash.
-    FrameWriter(std::filesystem::path folder, int workers, const std::optional<Video>& video, int width,
-                int height);
+    /// movie.EXTENSION for every format; workers = 0: no PNG and no hash.
+    FrameWriter(std::filesystem::path folder, int workers, const std::vector<std::string>& formats,
+                const Video& video);
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
@@ -28,7 +28,7 @@ class FrameWriter {
     void add(Image image, FrameInfo info, PngText text);
     /// Waits for everything; the film gets its name. Entries in the order of the frames.
     std::vector<FrameInfo> finish();
-    double encode_seconds() const;  ///< time spent in the encoder; after finish()
+    double encode_seconds() const;  ///< time spent in the encoders; after finish()
 
  private:
     struct Impl;

@@ -42,6 +42,7 @@ DrawingStyle still_style(const Scene& scene, const RunReader& run, const std::st
                          double text, double most_height) {
     DrawingStyle style = film_style(scene, run);
     style.view.theme = theme;
+    style.view.transparent = false;  // the sheet around it has a background
     style.view.show = {"supports", "loads"};
     style.view.width = 2 * (width / 2);
     style.view.height = height_for(style.view, run, width, most_height);

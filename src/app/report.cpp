@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "app/draw.hpp"
 #include "app/figures.hpp"
 #include "app/key_frames.hpp"
 #include "base/units.hpp"
@@ -61,12 +62,17 @@ void write_report(const Scene& scene, const fs::path& folder, const RendererOpti
                      .poster = read_if_there(folder / "poster.png"),
                      .cracks_light = {},
                      .cracks_dark = {},
-                     .film = read_if_there(folder / "movie.mp4"),
+                     .film = {},
+                     .film_type = {},
                      .frame_times = {},
                      .fps = run.summary().fps > 0 ? run.summary().fps : scene.movie.fps,
                      .key_frames = {}};
     for (const FrameInfo& frame : read_frames(folder)) page.frame_times.push_back(frame.time);
-    if (page.frame_times.empty()) page.film.clear();  // nobody knows what it shows when
+    for (const char* type :
+         {"webm", "mp4"})  // what browsers play; nobody knows what a film without times shows
+        if (const fs::path film = folder / fmt::format("movie.{}", type);
+            fs::exists(film) && !page.frame_times.empty())
+            page.film = read_if_there(film), page.film_type = fmt::format("video/{}", type);
     for (const KeyMoment& m : key_moments(scene, run))
         page.key_frames.push_back({m.time, m.label, m.detail, {}, {}});
     for (const char* theme : {"light", "dark"}) {
@@ -82,9 +88,9 @@ void write_report(const Scene& scene, const fs::path& folder, const RendererOpti
     const std::string label = fs::absolute(folder).lexically_normal().filename().string();
     write_file(folder / "caption.md", caption_markdown(caption, scene.title));
     fs::create_directories(folder / "snippets");
-    write_file(folder / "snippets/figure.tex", latex_snippet(caption, label));
-    write_file(folder / "snippets/figure.qmd", quarto_snippet(caption, label));
-    write_file(folder / "snippets/figure.md", markdown_snippet(caption));
+    write_file(folder / "snippets/figure.tex", latex_snippet(caption, label, film_in(folder)));
+    write_file(folder / "snippets/figure.qmd", quarto_snippet(caption, label, film_in(folder)));
+    write_file(folder / "snippets/figure.md", markdown_snippet(caption, film_in(folder)));
 }
 
 int report_command(const ReportOptions& options) {

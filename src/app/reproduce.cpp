@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -28,6 +31,21 @@ std::string beginning_of(const fs::path& file) {
     return text;
 }
 
+/// Animated WebP ends with an XMP packet.
+std::string end_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    in.seekg(-std::min<std::streamoff>(65536, static_cast<std::streamoff>(fs::file_size(file))),
+             std::ios::end);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::optional<Provenance> from_xmp(std::string text) {
+    for (const auto& [code, character] : {std::pair("&lt;", "<"), std::pair("&amp;", "&")})
+        for (std::size_t at = 0; (at = text.find(code, at)) != std::string::npos; ++at)
+            text.replace(at, std::strlen(code), character);
+    return from_comment(text);
+}
+
 std::optional<Provenance> read_provenance(const fs::path& file) {
     if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: there is no such file", file.string()));
     if (fs::is_directory(file) || file.filename() == "run.json") {
@@ -43,6 +61,8 @@ std::optional<Provenance> read_provenance(const fs::path& file) {
         return from_texts(text);
     }
     if (const auto found = from_comment(beginning_of(file))) return found;
+    if (type == ".webp")
+        if (const auto found = from_xmp(end_of(file))) return found;
     for (const auto& [key, text] : film_metadata(file))
         if (const auto found = from_comment(text)) return found;
     return {};

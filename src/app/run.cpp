@@ -166,7 +166,10 @@ std::string event_line(const char* name, const std::optional<Event>& event, bool
 
 /// What a user looks at first.
 std::string made(const fs::path& folder, bool pictures, const DrawOptions& draw) {
-    return (folder / (!pictures ? "states" : draw.movie ? "movie.mp4" : "strip.png")).string();
+    if (!pictures) return (folder / "states").string();
+    if (!draw.movie) return (folder / "strip.png").string();
+    const std::string film = film_in(folder);
+    return (folder / (film.empty() ? "frames" : film)).string();
 }
 
 void print_results(const RunSummary& s, const fs::path& folder, const RunOptions& options) {

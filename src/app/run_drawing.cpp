@@ -8,6 +8,7 @@
 
 #include "app/whole_run.hpp"
 #include "base/units.hpp"
+#include "image/background.hpp"
 
 namespace hibi {
 
@@ -114,7 +115,6 @@ int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& im
             picture.freshness[k] =
                 static_cast<float>(plan().freshness(film_time, broken_at[picture.broken[k]]));
     }
-    renderer_.draw(picture, image);
 
     over.time = time;
     over.load = load_at(run_.history(), time);
@@ -126,7 +126,10 @@ int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& im
     }
     for (const NotchLine& notch : notches_)
         over.symbols.push_back(place_notch(notch, run_.topology(), source_.x(), source_.y(), camera_));
-    overlay_.draw(image, over);
+    draw_on_background(style_.view, image, [&](const Rgb& background, Image& on) {
+        renderer_.draw(picture, background, on);
+        overlay_.draw(on, over);
+    });
     return over.broken;
 }
 

@@ -2,159 +2,163 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
+#include <algorithm>
 #include <stdexcept>
 
-#include "film/remux.hpp"
-
-extern "C" {
-#include <libavutil/opt.h>
-#include <libswscale/swscale.h>
-}
+#include "film/comment.hpp"
+#include "film/gif.hpp"
+#include "film/stream.hpp"
 
 namespace hibi {
 namespace {
 
-constexpr int frames_between_keys = 25;  // a second: a player finds any place at once
-
-struct FreeCodec {
-    void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
-};
-struct FreeFrame {
-    void operator()(AVFrame* p) const { av_frame_free(&p); }
-};
-struct FreeScaler {
-    void operator()(SwsContext* p) const { sws_freeContext(p); }
+/// How a format is made: from pixels of `opaque`, or of `transparent` where it has them.
+struct Format {
+    const char *name, *muxer, *codec;
+    AVPixelFormat opaque, transparent;
+    Settings encoder, file;
 };
 
-const AVCodec* x264() { return avcodec_find_encoder_by_name("libx264"); }
-
-}  // namespace
-
-struct Encoder::Impl {
-    Impl(std::filesystem::path name, const Video& wanted)
-        : file(std::move(name)), part(film_part_name(file)), video(wanted) {
-        av_log_set_level(AV_LOG_QUIET);  // what goes wrong is thrown, not printed between the progress lines
-        if (video.width <= 0 || video.height <= 0 || video.width % 2 || video.height % 2)
-            fail(
-                fmt::format("a film needs an even width and height (H.264 halves its colours); found {} x {}",
-                            video.width, video.height));
-        open_codec();
-        make_frame();
-        output = create_film(part, file);
-        output->flags |= AVFMT_FLAG_FLUSH_PACKETS;  // a fragment that is complete stands on the disk
-        AVStream* stream = add_film_stream(*output, video.metadata);
-        check(avcodec_parameters_from_context(stream->codecpar, codec.get()), "describe the video");
-        set_film_rate(*stream, video.fps);
+const std::vector<Format>& formats() {
+    static const std::vector<Format> list{
         // A fragment per key frame: whatever kills the program, all but the last second can be played. The
         // header waits for the first one, since only then the edit list that aligns the frames is known.
-        AVDictionary* options = nullptr;
-        av_dict_set(&options, "movflags", "frag_keyframe+delay_moov+default_base_moof", 0);
-        const int error = avformat_write_header(output.get(), &options);
-        av_dict_free(&options);
-        check(error, "begin the film");
+        {"mp4",
+         "mp4",
+         "libx264",
+         AV_PIX_FMT_YUV420P,
+         AV_PIX_FMT_NONE,
+         {{"preset", "veryfast"}},
+         {{"movflags", "frag_keyframe+delay_moov+default_base_moof"}}},
+        // libvpx refuses alternate reference frames in films with alpha.
+        {"webm",
+         "webm",
+         "libvpx-vp9",
+         AV_PIX_FMT_YUV420P,
+         AV_PIX_FMT_YUVA420P,
+         {{"deadline", "good"},
+          {"cpu-used", "5"},
+          {"row-mt", "1"},
+          {"tile-columns", "2"},
+          {"crf", "28"},
+          {"b", "0"},
+          {"auto-alt-ref", "0"}},
+         {}},
+        {"apng", "apng", "apng", AV_PIX_FMT_RGB24, AV_PIX_FMT_RGBA, {{"pred", "up"}}, {{"plays", "0"}}},
+        {"webp",
+         "webp",
+         "libwebp_anim",
+         AV_PIX_FMT_BGRA,
+         AV_PIX_FMT_BGRA,
+         {{"quality", "80"}, {"compression_level", "2"}},
+         {{"loop", "0"}}},
+    };
+    return list;
+}
+
+bool is_yuv(AVPixelFormat format) { return format == AV_PIX_FMT_YUV420P || format == AV_PIX_FMT_YUVA420P; }
+
+/// Any format but GIF.
+class VideoEncoder : public Encoder {
+ public:
+    VideoEncoder(const Format& format, std::filesystem::path name, const Video& wanted)
+        : file(std::move(name)), part(film_part_name(file)), video(wanted), stream(part, file) {
+        if (video.width <= 0 || video.height <= 0 || video.width % 2 || video.height % 2)
+            stream.fail(
+                fmt::format("a film needs an even width and height (H.264 halves its colours); found {} x {}",
+                            video.width, video.height));
+        transparent = video.transparent && format.transparent != AV_PIX_FMT_NONE;
+        const AVPixelFormat pixels = transparent ? format.transparent : format.opaque;
+        AVCodecContext& codec = stream.codec(format.codec, video.width, video.height, pixels, {video.fps, 1});
+        codec.gop_size = video.fps;  // a second: a player finds any place at once
+        codec.thread_count = video.threads;
+        if (is_yuv(pixels)) {
+            codec.color_primaries = AVCOL_PRI_BT709;
+            codec.color_trc = AVCOL_TRC_BT709;
+            codec.colorspace = AVCOL_SPC_BT709;
+            codec.color_range = AVCOL_RANGE_MPEG;
+            codec.chroma_sample_location = AVCHROMA_LOC_LEFT;
+        }
+        Settings settings = format.encoder;
+        if (is_mp4()) settings["crf"] = std::to_string(video.quality);
+        frame = make_frame(video.width, video.height, pixels);
+        frame->color_primaries = codec.color_primaries;
+        frame->color_trc = codec.color_trc;
+        frame->colorspace = codec.colorspace;
+        frame->color_range = codec.color_range;
+        frame->chroma_location = codec.chroma_sample_location;
+        make_scaler(pixels);
+        stream.begin(format.muxer, settings, format.file, video.metadata);
     }
 
-    void open_codec() {
-        const AVCodec* encoder = x264();
-        if (!encoder) fail("cannot open encoder \"libx264\": not in this build of FFmpeg");
-        codec.reset(avcodec_alloc_context3(encoder));
-        codec->width = video.width;
-        codec->height = video.height;
-        codec->pix_fmt = AV_PIX_FMT_YUV420P;
-        codec->time_base = {1, video.fps};
-        codec->framerate = {video.fps, 1};
-        codec->sample_aspect_ratio = {1, 1};
-        codec->gop_size = frames_between_keys;
-        codec->thread_count = video.threads;
-        codec->color_primaries = AVCOL_PRI_BT709;
-        codec->color_trc = AVCOL_TRC_BT709;
-        codec->colorspace = AVCOL_SPC_BT709;
-        codec->color_range = AVCOL_RANGE_MPEG;
-        codec->chroma_sample_location = AVCHROMA_LOC_LEFT;
-        codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-        av_opt_set(codec->priv_data, "preset", "veryfast", 0);
-        av_opt_set_int(codec->priv_data, "crf", video.quality, 0);
-        check(avcodec_open2(codec.get(), encoder, nullptr), "open encoder \"libx264\"");
+    void add(const Image& image) override {
+        // The encoder may still hold the last frame's memory.
+        stream.check(av_frame_make_writable(frame.get()), "reserve memory");
+        straight.resize(image.bgra.size());
+        if (image.transparent && !transparent)
+            to_straight(laid_on(image, video.background), straight.data());
+        else
+            to_straight(image, straight.data(), video.background);
+        const std::uint8_t* from[] = {straight.data()};
+        const int from_stride[] = {4 * video.width};
+        sws_scale(scaler.get(), from, from_stride, 0, video.height, frame->data, frame->linesize);
+        frame->pts = frames++;
+        stream.send(frame.get());
     }
 
-    void make_frame() {
-        frame.reset(av_frame_alloc());
-        frame->format = codec->pix_fmt;
-        frame->width = video.width;
-        frame->height = video.height;
-        frame->color_primaries = codec->color_primaries;
-        frame->color_trc = codec->color_trc;
-        frame->colorspace = codec->colorspace;
-        frame->color_range = codec->color_range;
-        frame->chroma_location = codec->chroma_sample_location;
-        check(av_frame_get_buffer(frame.get(), 0), "reserve memory");
+    void finish() override {
+        if (frames == 0) stream.fail("cannot make a film of no frames");
+        stream.finish();
+        if (is_mp4()) return finish_film(part, file, video.fps);
+        if (file.extension() != ".webm" && video.metadata.contains("comment"))
+            write_film_comment(part, video.metadata.at("comment"));
+        rename_film(part, file);
+    }
 
-        scaler.reset(sws_getContext(video.width, video.height, AV_PIX_FMT_BGR0, video.width, video.height,
-                                    codec->pix_fmt, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr,
-                                    nullptr));
-        if (!scaler) fail("cannot convert the colours");
+ private:
+    bool is_mp4() const { return file.extension() == ".mp4"; }
+
+    void make_scaler(AVPixelFormat pixels) {
+        scaler.reset(sws_getContext(video.width, video.height, AV_PIX_FMT_BGRA, video.width, video.height,
+                                    pixels, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
+        if (!scaler) stream.fail("cannot convert the colours");
+        if (!is_yuv(pixels)) return;
         // Left alone, swscale uses BT.601, and a player that believes the tags shows other colours.
         const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
         const int full = 1, limited = 0, plain = 1 << 16;
         if (sws_setColorspaceDetails(scaler.get(), bt709, full, bt709, limited, 0, plain, plain) < 0)
-            fail("cannot convert the colours to BT.709");
-        packet.reset(av_packet_alloc());
+            stream.fail("cannot convert the colours to BT.709");
     }
-
-    void add(const std::uint8_t* bgra, int stride) {
-        // The encoder may still hold the last frame's memory.
-        check(av_frame_make_writable(frame.get()), "reserve memory");
-        const std::uint8_t* from[] = {bgra};
-        const int from_stride[] = {stride};
-        sws_scale(scaler.get(), from, from_stride, 0, video.height, frame->data, frame->linesize);
-        frame->pts = frames++;
-        check(avcodec_send_frame(codec.get(), frame.get()), "encode");
-        write_packets();
-    }
-
-    void write_packets() {
-        for (;;) {
-            const int error = avcodec_receive_packet(codec.get(), packet.get());
-            if (error == AVERROR(EAGAIN) || error == AVERROR_EOF) return;
-            check(error, "encode");
-            packet->duration = 1;  // x264 leaves it out, and the rate would have to be guessed
-            av_packet_rescale_ts(packet.get(), codec->time_base, output->streams[0]->time_base);
-            check(av_interleaved_write_frame(output.get(), packet.get()), "write");
-        }
-    }
-
-    void finish() {
-        if (frames == 0) fail("cannot make a film of no frames");
-        check(avcodec_send_frame(codec.get(), nullptr), "encode");
-        write_packets();
-        check(av_write_trailer(output.get()), "write");
-        close_film(output, file);
-        finish_film(part, file, video.fps);
-    }
-
-    [[noreturn]] void fail(const std::string& what) const {
-        throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
-    }
-    void check(int error, const char* operation) const { check_film(error, file, operation); }
 
     std::filesystem::path file, part;
     Video video;
+    FilmStream stream;
+    bool transparent = false;
     std::int64_t frames = 0;
-    std::unique_ptr<AVCodecContext, FreeCodec> codec;
-    std::unique_ptr<AVFrame, FreeFrame> frame;
-    std::unique_ptr<SwsContext, FreeScaler> scaler;
-    PacketPtr packet;
-    OutputPtr output;
+    std::vector<std::uint8_t> straight;
+    FramePtr frame;
+    ScalerPtr scaler;
 };
 
-Encoder::Encoder(std::filesystem::path file, const Video& video)
-    : impl_(std::make_unique<Impl>(std::move(file), video)) {}
-Encoder::~Encoder() = default;
+}  // namespace
 
-void Encoder::add(const std::uint8_t* bgra, int stride) { impl_->add(bgra, stride); }
-void Encoder::finish() { impl_->finish(); }
+const std::vector<std::string>& film_formats() {
+    static const std::vector<std::string> names{"mp4", "gif", "webm", "apng", "webp"};
+    return names;
+}
 
-std::string encoder_name() { return x264() ? fmt::format("libx264, FFmpeg {}", av_version_info()) : ""; }
+std::unique_ptr<Encoder> open_encoder(const std::filesystem::path& file, const Video& video) {
+    const std::string name = file.extension().string();
+    if (name == ".gif") return std::make_unique<GifEncoder>(file, video);
+    for (const Format& format : formats())
+        if (name == std::string(".") + format.name)
+            return std::make_unique<VideoEncoder>(format, file, video);
+    throw std::runtime_error(fmt::format("{}: no film format has the extension \"{}\"", file.string(), name));
+}
+
+std::string encoder_name() {
+    return avcodec_find_encoder_by_name("libx264") ? fmt::format("libx264, FFmpeg {}", av_version_info())
+                                                   : "";
+}
 
 }  // namespace hibi

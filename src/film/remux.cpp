@@ -27,13 +27,14 @@ void check_film(int error, const std::filesystem::path& file, const std::string&
 }
 
 std::filesystem::path film_part_name(const std::filesystem::path& file) {
-    return file.parent_path() / fmt::format("{}.part.mp4", file.stem().string());
+    return file.parent_path() / fmt::format("{}.part{}", file.stem().string(), file.extension().string());
 }
 
-OutputPtr create_film(const std::filesystem::path& path, const std::filesystem::path& shown) {
+OutputPtr create_film(const std::filesystem::path& path, const std::filesystem::path& shown,
+                      const char* muxer) {
     AVFormatContext* output = nullptr;
-    check_film(avformat_alloc_output_context2(&output, nullptr, "mp4", path.c_str()), shown,
-               "use the MP4 format");
+    check_film(avformat_alloc_output_context2(&output, nullptr, muxer, path.c_str()), shown,
+               fmt::format("use the format \"{}\"", muxer));
     OutputPtr owner(output);
     check_film(avio_open(&output->pb, path.c_str(), AVIO_FLAG_WRITE), shown, "create the file");
     return owner;
@@ -46,14 +47,22 @@ AVStream* add_film_stream(AVFormatContext& output, const std::map<std::string, s
     return stream;
 }
 
-void set_film_rate(AVStream& stream, int fps) {
-    stream.time_base = {1, fps};
-    stream.avg_frame_rate = stream.r_frame_rate = {fps, 1};
+void set_film_rate(AVStream& stream, AVRational fps) {
+    stream.time_base = av_inv_q(fps);
+    stream.avg_frame_rate = stream.r_frame_rate = fps;
 }
 
 void close_film(OutputPtr& output, const std::filesystem::path& shown) {
     check_film(avio_closep(&output->pb), shown, "write");
     output.reset();
+}
+
+void rename_film(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::error_code failed;
+    std::filesystem::rename(from, to, failed);
+    if (failed)
+        throw std::runtime_error(
+            fmt::format("{}: cannot rename the film: {}", to.string(), failed.message()));
 }
 
 void finish_film(const std::filesystem::path& part, const std::filesystem::path& file, int fps) {
@@ -64,12 +73,12 @@ void finish_film(const std::filesystem::path& part, const std::filesystem::path&
         check_film(avformat_open_input(&opened, part.c_str(), nullptr, nullptr), part, "read back the film");
         const std::unique_ptr<AVFormatContext, CloseInput> input(opened);
         check_film(avformat_find_stream_info(opened, nullptr), part, "read back the film");
-        OutputPtr output = create_film(whole, file);
+        OutputPtr output = create_film(whole, file, "mp4");
         av_dict_copy(&output->metadata, opened->metadata, 0);
         AVStream* stream = add_film_stream(*output, {});
         check_film(avcodec_parameters_copy(stream->codecpar, opened->streams[0]->codecpar), file,
                    "copy the film");
-        set_film_rate(*stream, fps);
+        set_film_rate(*stream, {fps, 1});
         AVDictionary* options = nullptr;
         av_dict_set(&options, "movflags", "faststart", 0);
         const int error = avformat_write_header(output.get(), &options);
@@ -86,11 +95,8 @@ void finish_film(const std::filesystem::path& part, const std::filesystem::path&
         check_film(av_write_trailer(output.get()), file, "write");
         close_film(output, file);
     }
+    rename_film(whole, file);
     std::error_code failed;
-    std::filesystem::rename(whole, file, failed);
-    if (failed)
-        throw std::runtime_error(
-            fmt::format("{}: cannot rename the film: {}", file.string(), failed.message()));
     std::filesystem::remove(part, failed);
 }
 

@@ -27,13 +27,16 @@ void check_film(int error, const std::filesystem::path& file, const std::string&
 /// out/movie.mp4 -> out/movie.part.mp4: a name that players open.
 std::filesystem::path film_part_name(const std::filesystem::path& file);
 
-/// Creates `path` as MP4; errors name `shown`.
-OutputPtr create_film(const std::filesystem::path& path, const std::filesystem::path& shown);
+/// Creates `path` in a format by FFmpeg's name of it; errors name `shown`.
+OutputPtr create_film(const std::filesystem::path& path, const std::filesystem::path& shown,
+                      const char* muxer);
 AVStream* add_film_stream(AVFormatContext& output, const std::map<std::string, std::string>& metadata);
-void set_film_rate(AVStream& stream, int fps);
+void set_film_rate(AVStream& stream, AVRational fps);
 
 /// Closes what has been written completely; the disk's last error is found here.
 void close_film(OutputPtr& output, const std::filesystem::path& shown);
+
+void rename_film(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Rewrites the fragmented `part` as an ordinary MP4 with its index in front, gives it the name `file`, and
 /// removes the part.

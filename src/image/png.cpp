@@ -79,15 +79,17 @@ Image decode(const std::vector<unsigned char>& bytes, PngText* text) {
     png_set_expand(reader.png);
     png_set_strip_16(reader.png);
     png_set_gray_to_rgb(reader.png);
-    png_set_strip_alpha(reader.png);
     png_set_bgr(reader.png);
-    png_set_filler(reader.png, 0, PNG_FILLER_AFTER);
+    image.transparent = png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_ALPHA ||
+                        png_get_valid(reader.png, reader.info, PNG_INFO_tRNS);
+    if (!image.transparent) png_set_filler(reader.png, 0, PNG_FILLER_AFTER);
     png_set_interlace_handling(reader.png);
     png_read_update_info(reader.png, reader.info);
     std::vector<png_bytep> rows;
     for (int y = 0; y < image.height; ++y) rows.push_back(image.pixel(0, y));
     png_read_image(reader.png, rows.data());
     png_read_end(reader.png, reader.info);
+    if (image.transparent) to_premultiplied(image.bgra.data(), image.width * image.height);
     if (text) {
         png_textp chunks = nullptr;
         const int count = static_cast<int>(png_get_text(reader.png, reader.info, &chunks, nullptr));
@@ -103,8 +105,9 @@ std::vector<unsigned char> encode_png(const Image& image, const PngOptions& opti
     bytes.reserve(image.bgra.size() / 4);
     Writer writer;
     png_set_write_fn(writer.png, &bytes, append, nullptr);
-    png_set_IHDR(writer.png, writer.info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(writer.png, writer.info, image.width, image.height, 8,
+                 image.transparent ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (options.small) {
         png_set_compression_level(writer.png, 9);
         png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
@@ -119,10 +122,18 @@ std::vector<unsigned char> encode_png(const Image& image, const PngOptions& opti
         png_set_pHYs(writer.png, writer.info, per_metre, per_metre, PNG_RESOLUTION_METER);
     }
     png_write_info(writer.png, writer.info);
-    std::vector<std::uint8_t> row(std::size_t(3) * image.width);
-    for (int y = 0; y < image.height; ++y) {
-        to_rgb(image.pixel(0, y), image.width, row.data());
-        png_write_row(writer.png, row.data());
+    if (image.transparent) {
+        std::vector<std::uint8_t> straight(image.bgra.size());
+        to_straight(image, straight.data());
+        png_set_bgr(writer.png);
+        for (int y = 0; y < image.height; ++y)
+            png_write_row(writer.png, straight.data() + y * image.stride());
+    } else {
+        std::vector<std::uint8_t> row(std::size_t(3) * image.width);
+        for (int y = 0; y < image.height; ++y) {
+            to_rgb(image.pixel(0, y), image.width, row.data());
+            png_write_row(writer.png, row.data());
+        }
     }
     png_write_end(writer.png, writer.info);
     return bytes;

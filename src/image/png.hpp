@@ -19,12 +19,12 @@ struct PngOptions {
     double dpi = 0;  ///< pixels per inch in print; 0: not said
 };
 
-/// RGB, 8 bits, no alpha.
+/// RGB, 8 bits; of a transparent image RGBA, colours not multiplied by alpha and 0 where it is 0.
 std::vector<unsigned char> encode_png(const Image& image, const PngOptions& options = {});
 /// The same to a file, under a temporary name first. Errors: std::runtime_error naming the file.
 void write_png(const std::filesystem::path& file, const Image& image, const PngOptions& options = {});
-/// Reads any PNG (alpha is dropped, fewer channels are filled up, 16 bits are cut to 8), and its texts if
-/// wanted. Throws std::runtime_error naming the file and what is wrong with it.
+/// Reads any PNG (transparent if it has alpha; fewer channels are filled up, 16 bits are cut to 8), and its
+/// texts if wanted. Throws std::runtime_error naming the file and what is wrong with it.
 Image read_png(const std::filesystem::path& file, PngText* text = nullptr);
 
 }  // namespace hibi

@@ -15,6 +15,7 @@ struct View {
     std::optional<std::array<double, 2>>
         range{};                 ///< in the field's SI unit; absent: fixed over the whole run
     std::string theme = "dark";  ///< dark, light, print
+    bool transparent = false;    ///< no background, in files that can do without
     std::vector<std::string> show = all_parts();
     std::optional<std::array<double, 4>> window{};  ///< x0, y0, x1, y1 (m); absent: the run up to separation
     std::string bonds = "nearest";                  ///< which intact bonds are drawn: none, nearest, all

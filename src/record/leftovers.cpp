@@ -14,9 +14,9 @@ namespace {
 
 /// Everything a run writes beside its states and frames.
 constexpr const char* tables[] = {"history.csv", "breaks.csv", "scene.toml", "run.json", "states.hdf.series"};
-constexpr const char* pictures[] = {"movie.mp4",    "movie.part.mp4", "movie.whole.mp4", "poster.png",
-                                    "frames.json",  "strip.png",      "cracks.png",      "curve.png",
-                                    "curve.svg",    "report.html",    "caption.md",      "snippets/figure.tex",
+constexpr const char* pictures[] = {"poster.png",          "frames.json",       "strip.png",
+                                    "cracks.png",          "curve.png",         "curve.svg",
+                                    "report.html",         "caption.md",        "snippets/figure.tex",
                                     "snippets/figure.qmd", "snippets/figure.md"};
 
 void remove_one(const std::filesystem::path& file) {
@@ -69,6 +69,9 @@ void remove_leftovers(const std::filesystem::path& folder) {
 
 void remove_pictures(const std::filesystem::path& folder) {
     for (const char* name : pictures) remove_with_unfinished(folder / name);
+    for (const char* type : {"mp4", "gif", "webm", "apng", "webp"})
+        for (const char* stage : {"", ".part", ".whole"})
+            remove_one(folder / fmt::format("movie{}.{}", stage, type));
     remove_numbered(folder / "frames", ".png");
     remove_figures(folder / "figures");
     for (const char* name : {"figures", "snippets"})

@@ -190,9 +190,9 @@ struct Renderer::Impl {
         upload(state_table, states);
     }
 
-    void draw(const Picture2& picture) {
+    void draw(const Picture2& picture, const Rgb& background) {
         gl->Disable(GL_SCISSOR_TEST);
-        gl->ClearColor(colours.background[0], colours.background[1], colours.background[2], 1);
+        gl->ClearColor(background[0], background[1], background[2], 1);
         gl->Clear(GL_COLOR_BUFFER_BIT);
         if (picture.x.empty()) return;
 
@@ -266,6 +266,10 @@ Renderer::Renderer(const View& view, const Topology& topology, const RendererOpt
 Renderer::~Renderer() = default;
 
 void Renderer::draw(const Picture2& picture, Image& image) {
+    draw(picture, impl_->colours.background, image);
+}
+
+void Renderer::draw(const Picture2& picture, const Rgb& background, Image& image) {
     assert(picture.x.size() == impl_->topology.spacing.size() && picture.y.size() == picture.x.size());
     assert(picture.value.empty() || picture.value.size() == picture.x.size());
     assert(picture.freshness.size() == picture.broken.size());
@@ -273,7 +277,7 @@ void Renderer::draw(const Picture2& picture, Image& image) {
     if (image.width != impl_->width || image.height != impl_->height)
         image = Image(impl_->width, impl_->height);
     const CurrentContext current(*impl_->context);
-    impl_->draw(picture);
+    impl_->draw(picture, background);
     impl_->gl->ReadPixels(0, 0, image.width, image.height, GL_BGRA, GL_UNSIGNED_BYTE, image.bgra.data());
     if (const GLenum error = impl_->gl->GetError(); error != GL_NO_ERROR)
         throw std::runtime_error(

@@ -47,8 +47,10 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Fills the whole image (view size) with the background and the picture, clipped to camera.rect.
-    void draw(const Picture2& picture, Image& image);
+    /// Fills the whole image (view size) with a colour, and draws the picture on it, clipped to camera.rect.
+    /// Whatever the colour, the border of a crack is that of the theme's background: it is part of the crack.
+    void draw(const Picture2& picture, const Rgb& background, Image& image);
+    void draw(const Picture2& picture, Image& image);  ///< on the theme's background
 
     /// e.g. "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6, OSMesa"
     std::string description() const;

@@ -149,6 +149,9 @@ std::string alternative_of(const Shown& figure, const Caption& c) {
     return *figure.alternative ? figure.alternative : c.alternative;
 }
 
+/// Else it is a picture that moves.
+bool is_video(const std::string& film) { return film.ends_with(".mp4") || film.ends_with(".webm"); }
+
 /// Letters, digits and hyphens: what every program takes for a label.
 std::string label_of(const std::string& text) {
     std::string label;
@@ -158,10 +161,9 @@ std::string label_of(const std::string& text) {
 
 }  // namespace
 
-std::string latex_snippet(const Caption& c, const std::string& label) {
-    std::string text =
-        "% \\usepackage{graphicx}, and \\usepackage{textcomp} in old distributions; the film lies beside: "
-        "movie.mp4\n";
+std::string latex_snippet(const Caption& c, const std::string& label, const std::string& film) {
+    std::string text = "% \\usepackage{graphicx}, and \\usepackage{textcomp} in old distributions" +
+                       (film.empty() ? std::string() : "; the film lies beside: " + film) + "\n";
     for (const Shown& figure : figures)
         text += fmt::format(
             "\\begin{{figure}}\n  \\centering\n  % {}\n  \\includegraphics[width=\\linewidth]"
@@ -172,8 +174,12 @@ std::string latex_snippet(const Caption& c, const std::string& label) {
     return text;
 }
 
-std::string quarto_snippet(const Caption& c, const std::string& label) {
-    std::string text = fmt::format("{{{{< video movie.mp4 title=\"{}\" >}}}}\n\n", quoted(c.alternative));
+std::string quarto_snippet(const Caption& c, const std::string& label, const std::string& film) {
+    std::string text;
+    if (is_video(film))
+        text = fmt::format("{{{{< video {} title=\"{}\" >}}}}\n\n", film, quoted(c.alternative));
+    else if (!film.empty())
+        text = fmt::format("![]({}){{fig-alt=\"{}\"}}\n\n", film, quoted(c.alternative));
     for (const Shown& figure : figures)
         text += fmt::format("![{} {}](figures/{}_print_170mm.png){{#fig-{}-{} fig-alt=\"{}\"}}\n\n",
                             figure.words, markdown_escaped(c.text), figure.name, label_of(label), figure.name,
@@ -181,12 +187,15 @@ std::string quarto_snippet(const Caption& c, const std::string& label) {
     return text;
 }
 
-std::string markdown_snippet(const Caption& c) {
-    std::string text = fmt::format("[![{}](poster.png)](movie.mp4)\n\n", markdown_escaped(c.alternative));
+std::string markdown_snippet(const Caption& c, const std::string& film) {
+    const std::string words = markdown_escaped(c.alternative);
+    std::string text = film.empty()     ? fmt::format("![{}](poster.png)\n\n", words)
+                       : is_video(film) ? fmt::format("[![{}](poster.png)]({})\n\n", words, film)
+                                        : fmt::format("![{}]({})\n\n", words, film);
     for (const Shown& figure : figures)
         text += fmt::format("![{}]({}.png)\n\n*{} {}*\n\n", markdown_escaped(alternative_of(figure, c)),
                             figure.name, figure.words, markdown_escaped(c.text));
-    return text + "[Film](movie.mp4) · [Report](report.html)\n";
+    return text + (film.empty() ? "" : fmt::format("[Film]({}) · ", film)) + "[Report](report.html)\n";
 }
 
 }  // namespace hibi

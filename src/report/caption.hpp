@@ -20,9 +20,9 @@ std::string caption_markdown(const Caption& caption, const std::string& title);
 
 /// Figures of the run's folder with their caption, as source for other programs. File names are relative to
 /// the folder of the run.
-std::string latex_snippet(const Caption& caption, const std::string& label);
-std::string quarto_snippet(const Caption& caption, const std::string& label);
-std::string markdown_snippet(const Caption& caption);
+std::string latex_snippet(const Caption& caption, const std::string& label, const std::string& film);
+std::string quarto_snippet(const Caption& caption, const std::string& label, const std::string& film);
+std::string markdown_snippet(const Caption& caption, const std::string& film);
 
 /// Plain text as LaTeX shows it.
 std::string latex_escaped(const std::string& text);

@@ -44,7 +44,7 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-std::string data_uri(const char* type, const std::string& bytes) {
+std::string data_uri(const std::string& type, const std::string& bytes) {
     return fmt::format("data:{};base64,{}", type, base64(bytes));
 }
 
@@ -219,7 +219,7 @@ std::string film_html(const PageContent& c) {
         text += fmt::format(
             "<video muted playsinline controls preload=\"auto\" aria-label=\"{}\" "
             "src=\"{}\"></video>\n",
-            alternative, data_uri("video/mp4", c.film));
+            alternative, data_uri(c.film_type, c.film));
     if (!c.poster.empty())
         text += fmt::format("<img class=\"{}\" alt=\"{}\" src=\"{}\">\n", c.film.empty() ? "" : "only-print",
                             alternative, data_uri("image/png", c.poster));

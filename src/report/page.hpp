@@ -23,7 +23,8 @@ struct PageContent {
     std::string caption;
     std::string poster;                     ///< PNG; empty: left out
     std::string cracks_light, cracks_dark;  ///< PNG, for either theme; empty: left out
-    std::string film;                 ///< MP4; empty: the poster stands in its place
+    std::string film;                 ///< empty: the poster stands in its place
+    std::string film_type;            ///< video/mp4 or video/webm
     std::vector<double> frame_times;  ///< simulated time of each frame of the film (s)
     int fps = 25;
     std::vector<PageKeyFrame> key_frames;

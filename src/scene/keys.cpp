@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "film/encoder.hpp"
 #include "image/theme.hpp"
 #include "image/view.hpp"
 #include "measure/snapshot.hpp"
@@ -189,6 +190,9 @@ const std::vector<KeyBlock>& scene_blocks() {
             {"window", points, "m", "the run up to separation",
              "two corners of the part of space that is shown",
              R"([["0 m", "0 m"], ["40 m", "20 m"]])"},
+            {"background", choice, "", "theme",
+             "transparent: none, in frames and in films of a format that has it (not mp4; gif without soft edges)",
+             R"("transparent")", {"theme", "transparent"}},
             {"bonds", choice, "", "nearest", "which intact bonds are drawn", R"("all")", {"none", "nearest",
              "all"}},
             {"magnify", quantity, "", "1", "displacements are drawn this many times as large", "100"},
@@ -212,8 +216,10 @@ const std::vector<KeyBlock>& scene_blocks() {
             {"flash", quantity, "s", "0.6 s", "playback time for which a fresh break is bright", R"("1 s")"},
             {"poster", moment, "", "two thirds of the breaks up to separation", "moment of poster.png",
              R"("peak_load")"},
-            {"formats", choices, "", R"(["mp4"])", "gif and webm are not available yet", R"(["mp4"])", {"mp4",
-             "gif", "webm"}},
+            {"formats", choices, "", R"(["mp4"])",
+             "of the film: movie.mp4, ...; the size of a gif is at most 960 pixels and 15 frames per second",
+             R"(["mp4", "gif"])", film_formats()},
+            {"gif_limit", quantity, "", "10", "MB; a gif becomes smaller, then slower, until it holds", "4"},
         }},
         {"slow", "slow", Form::inner, "One span of slow motion.", {
             {"around", moment, "", "required", "what is seen slowly; a fifth of the span comes before it",

@@ -255,6 +255,7 @@ void read_view(const Value& document, ReadContext& context, View& view) {
         view.range = colour->range("range", field_label(view.field).unit);
     }
     set(view.theme, block->choice("theme"));
+    if (const auto background = block->choice("background")) view.transparent = *background == "transparent";
     set(view.show, block->choices("show"));
     if (const auto corners = block->points("window")) {
         if (corners->size() == 2 && (corners->at(0).array() < corners->at(1).array()).all())
@@ -286,12 +287,8 @@ void read_movie(const Value& document, ReadContext& context, MovieSpec& movie) {
     movie.hold = block->quantity("hold");
     set(movie.flash, block->quantity("flash"));
     movie.poster = block->moment("poster");
-    if (const auto formats = block->choices("formats"))
-        for (std::size_t i = 0; i < formats->size(); ++i)
-            if (formats->at(i) != "mp4")
-                block->fail(fmt::format("formats/{}", i),
-                            fmt::format("[movie] formats: \"{}\" is not available yet", formats->at(i)),
-                            "leave it out");
+    set(movie.formats, block->choices("formats"));
+    if (const auto megabytes = block->quantity("gif_limit")) movie.gif_limit = 1e6 * *megabytes;
 }
 
 }  // namespace

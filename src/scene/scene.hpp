@@ -88,6 +88,8 @@ struct MovieSpec {
     std::optional<double> hold{};    ///< of the last picture, within the duration (s); absent: a twelfth of it
     double flash = 0.6;              ///< of a fresh break (s of playback)
     std::optional<Moment> poster{};  ///< absent: when two thirds of the bonds are broken
+    std::vector<std::string> formats{"mp4"};  ///< of film_formats()
+    double gif_limit = 10e6;                  ///< (bytes)
     double hold_seconds() const { return hold.value_or(duration / 12); }
     int frames() const { return std::max(1, static_cast<int>(duration * fps + 0.5)); }
 };

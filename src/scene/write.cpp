@@ -184,6 +184,7 @@ void write_pictures(Writer& out, const View& view, const MovieSpec& movie, const
                                    view.range ? fmt::format("[{}, {}]", view.range->at(0), view.range->at(1))
                                               : quote("run")));
     out.line("theme", quote(view.theme));
+    out.line("background", quote(view.transparent ? "transparent" : "theme"));
     out.line("show", names(view.show));
     if (view.window)
         out.line("window", points({{view.window->at(0), view.window->at(1)},
@@ -202,7 +203,8 @@ void write_pictures(Writer& out, const View& view, const MovieSpec& movie, const
     out.line("hold", movie.hold_seconds());
     out.line("flash", movie.flash);
     out.line("poster", movie.poster);
-    out.line("formats", names({"mp4"}));
+    out.line("formats", names(movie.formats));
+    out.line("gif_limit", movie.gif_limit / 1e6);
 
     std::string at;
     for (const Moment& m : strip.at) at += (at.empty() ? "" : ", ") + moment(m);

@@ -1,5 +1,6 @@
 #include "app/draw.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -9,6 +10,7 @@
 #include "app/frame_writer.hpp"
 #include "app/recorded_cantilever.hpp"
 #include "base/hash.hpp"
+#include "film/encoder.hpp"
 #include "image/png.hpp"
 #include "scene/read.hpp"
 #include "support/temporary_folder.hpp"
@@ -192,6 +194,57 @@ TEST(Draw, TheSetupShowsSupportsAndLoadsWithoutARun) {
     EXPECT_EQ(pixels_of(without, colours.support), 0);
 }
 
+TEST(Draw, ATransparentFrameOnTheThemesBackgroundIsTheOpaqueOne) {
+    const TemporaryFolder folder;
+    const RecordedCantilever cantilever;
+    cantilever.write(folder.path());
+    Scene scene = cantilever.scene();
+    for (const std::string name : {"dark", "light"}) {
+        scene.view.theme = name;
+        scene.view.transparent = false;
+        draw_run(scene, folder.path(), {.movie = false});
+        std::vector<Image> opaque;
+        for (const int k : {0, 12, 19})
+            opaque.push_back(read_png(folder.path() / "frames" / fmt::format("{:06}.png", k)));
+        scene.view.transparent = true;
+        draw_run(scene, folder.path(), {.movie = false});
+        std::size_t i = 0;
+        for (const int k : {0, 12, 19}) {
+            const Image image = read_png(folder.path() / "frames" / fmt::format("{:06}.png", k));
+            ASSERT_TRUE(image.transparent);
+            EXPECT_EQ(image.pixel(0, 0)[3], 0);
+            const Image laid = laid_on(image, theme(name).background);
+            int worst = 0;
+            for (std::size_t b = 0; b < laid.bgra.size(); ++b)
+                if (b % 4 != 3) worst = std::max(worst, std::abs(laid.bgra[b] - opaque[i].bgra[b]));
+            EXPECT_LE(worst, 3) << name << " " << k;  // rounding, in each of what lies one over the other
+            ++i;
+        }
+    }
+}
+
+TEST(Draw, FilmsComeInTheFormatsAskedForAndGoAgain) {
+    const TemporaryFolder folder;
+    const RecordedCantilever cantilever;
+    cantilever.write(folder.path());
+    Scene scene = cantilever.scene();
+    scene.movie.formats = {"gif", "webm"};
+    draw_run(scene, folder.path(), {.frames = false});
+    EXPECT_EQ(packets(folder.path() / "movie.gif"), 20);
+    EXPECT_EQ(packets(folder.path() / "movie.webm"), 20);
+    EXPECT_FALSE(fs::exists(folder.path() / "movie.mp4"));
+    EXPECT_EQ(film_in(folder.path()), "movie.gif");
+    DrawOptions every_format;
+    every_format.formats = film_formats();
+    every_format.frames = false;
+    draw_run(scene, folder.path(), every_format);
+    for (const std::string& format : film_formats())
+        EXPECT_TRUE(fs::exists(folder.path() / ("movie." + format)));
+    EXPECT_EQ(film_in(folder.path()), "movie.mp4");
+    draw_run(scene, folder.path(), {.movie = false, .frames = false});
+    EXPECT_EQ(film_in(folder.path()), "");  // record/leftovers knows them all
+}
+
 TEST(Draw, OldPicturesGoAndEverythingElseStays) {
     const TemporaryFolder folder;
     const RecordedCantilever cantilever;
@@ -215,7 +268,7 @@ TEST(Draw, OldPicturesGoAndEverythingElseStays) {
 
 TEST(FrameWriter, AnErrorOfAWorkerReachesTheCaller) {
     const TemporaryFolder folder;  // without frames/: no PNG can be written
-    FrameWriter writer(folder.path(), 2, {}, 32, 18);
+    FrameWriter writer(folder.path(), 2, {}, {.width = 32, .height = 18});
     try {
         for (int k = 0; k < 50; ++k) {  // more than it holds: waiting for a free image must not hang
             FrameInfo info;
@@ -232,7 +285,7 @@ TEST(FrameWriter, AnErrorOfAWorkerReachesTheCaller) {
 TEST(FrameWriter, KeepsTheOrderHoweverLongAFrameTakes) {
     const TemporaryFolder folder;
     fs::create_directories(folder.path() / "frames");
-    FrameWriter writer(folder.path(), 3, Video{.width = 320, .height = 180, .fps = 10}, 320, 180);
+    FrameWriter writer(folder.path(), 3, {"mp4"}, {.width = 320, .height = 180, .fps = 10});
     for (int k = 0; k < 30; ++k) {
         Image image = writer.take();
         for (std::size_t i = 0; i < image.bgra.size();
@@ -259,7 +312,7 @@ TEST(FrameWriter, BeingLeftUnfinishedStopsItsThreads) {
     const TemporaryFolder folder;
     fs::create_directories(folder.path() / "frames");
     {
-        FrameWriter writer(folder.path(), 2, Video{.width = 64, .height = 36, .fps = 10}, 64, 36);
+        FrameWriter writer(folder.path(), 2, {"mp4"}, {.width = 64, .height = 36, .fps = 10});
         FrameInfo info;
         info.file = "frames/000000.png";
         writer.add(writer.take(), info, {});

@@ -108,12 +108,13 @@ class EncoderTest : public testing::Test {
     ~EncoderTest() override { fs::remove_all(folder); }
 
     void film(int frames, std::array<int, 3> rgb = {200, 60, 30}) const {
-        Encoder encoder(file, {.width = width, .height = height, .metadata = {{"title", "ひび"}}});
+        const auto encoder =
+            open_encoder(file, {.width = width, .height = height, .metadata = {{"title", "ひび"}}});
         for (int k = 0; k < frames; ++k) {
             const Image image = frame(k, rgb);
-            encoder.add(image.bgra.data(), image.stride());
+            encoder->add(image);
         }
-        encoder.finish();
+        encoder->finish();
     }
     static std::string error_of(const std::function<void()>& act) {
         try {
@@ -180,10 +181,10 @@ TEST_F(EncoderTest, FinishedFilmHasItsIndexInFrontAndLeavesNothingElse) {
 
 TEST_F(EncoderTest, KilledFilmPlaysFromItsTemporaryName) {
     {
-        Encoder encoder(file, {.width = width, .height = height});
+        const auto encoder = open_encoder(file, {.width = width, .height = height});
         for (int k = 0; k < 90; ++k) {
             const Image image = frame(k, {200, 60, 30});
-            encoder.add(image.bgra.data(), image.stride());
+            encoder->add(image);
         }
     }
     EXPECT_FALSE(fs::exists(file));
@@ -202,7 +203,7 @@ TEST_F(EncoderTest, NewFilmReplacesAnOldOne) {
 }
 
 TEST_F(EncoderTest, OddSizeIsRefused) {
-    const std::string error = error_of([&] { Encoder(file, {.width = 191, .height = 108}); });
+    const std::string error = error_of([&] { open_encoder(file, {.width = 191, .height = 108}); });
     EXPECT_NE(error.find(file.string()), error.npos) << error;
     EXPECT_NE(error.find("even"), error.npos) << error;
     EXPECT_NE(error.find("191 x 108"), error.npos) << error;
@@ -211,7 +212,7 @@ TEST_F(EncoderTest, OddSizeIsRefused) {
 
 TEST_F(EncoderTest, FolderThatIsNotThereIsNamed) {
     const fs::path nowhere = folder / "missing" / "movie.mp4";
-    const std::string error = error_of([&] { Encoder(nowhere, {.width = width, .height = height}); });
+    const std::string error = error_of([&] { open_encoder(nowhere, {.width = width, .height = height}); });
     EXPECT_NE(error.find(nowhere.string()), error.npos) << error;
     EXPECT_NE(error.find("No such file or directory"), error.npos) << error;
 }

@@ -30,5 +30,56 @@ TEST(PixelHash, IgnoresTheFourthByteButNoColourAndNoSize) {
     EXPECT_NE(pixel_hash(tall), pixel_hash(two_pixels()));
 }
 
+/// One colour and alpha (0..1) as it looks over a colour, as a renderer would draw it.
+Image over(const Rgb& colour, double alpha, const Rgb& below) {
+    Image image(1, 1);
+    for (int c = 0; c < 3; ++c)
+        image.bgra[2 - c] =
+            static_cast<std::uint8_t>(255 * (alpha * colour[c] + (1 - alpha) * below[c]) + 0.5);
+    return image;
+}
+
+TEST(Transparency, AlphaIsWhatBlackAndWhiteTell) {
+    for (const Rgb& colour : {Rgb{1, 0.5f, 0}, Rgb{0, 0, 0}, Rgb{1, 1, 1}, Rgb{0.1f, 0.7f, 0.3f}})
+        for (const double alpha : {0.0, 0.01, 0.3, 0.5, 0.99, 1.0}) {
+            Image image = over(colour, alpha, {0, 0, 0});
+            find_alpha(image, over(colour, alpha, {1, 1, 1}));
+            EXPECT_TRUE(image.transparent);
+            EXPECT_NEAR(image.bgra[3], 255 * alpha, 1);
+            const Image on_red = laid_on(image, {1, 0, 0});
+            EXPECT_FALSE(on_red.transparent);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(on_red.bgra[c], over(colour, alpha, {1, 0, 0}).bgra[c], 1.5);
+        }
+}
+
+TEST(Transparency, StraightColoursComeBackExactly) {
+    for (int alpha = 0; alpha <= 255; alpha += 5)
+        for (int colour = 0; colour <= alpha; ++colour) {
+            Image image(1, 1);
+            image.transparent = true;
+            for (int c = 0; c < 3; ++c) image.bgra[c] = static_cast<std::uint8_t>(colour);
+            image.bgra[3] = static_cast<std::uint8_t>(alpha);
+            std::array<std::uint8_t, 4> straight{};
+            to_straight(image, straight.data(), {1, 1, 1});
+            if (alpha == 0) {
+                EXPECT_EQ(straight[0], 255);
+            }
+            if (alpha == 0) continue;
+            EXPECT_NEAR(straight[0], 255.0 * colour / alpha, 0.5);
+            to_premultiplied(straight.data(), 1);
+            EXPECT_EQ(straight[0], colour) << alpha;
+        }
+}
+
+TEST(Transparency, ItsHashIsThatOfFourBytesPerPixel) {
+    Image image = two_pixels();
+    image.transparent = true;
+    image.bgra[3] = 255;
+    image.bgra[7] = 255;
+    // printf '2x1\n\x01\x02\x03\xff\xfd\xfe\xff\xff' | sha256sum
+    EXPECT_EQ(pixel_hash(image), "6c94d257370d9ab91a4a7e04d9f55ce5e040acc75f468cbafd94c93a0d06a9f5");
+}
+
 }  // namespace
 }  // namespace hibi

@@ -43,13 +43,31 @@ TEST(Png, PixelsAndTextComeBack) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "a.png";
     for (const bool small : {false, true}) {
-        write_png(file, gradient(), {.text = {{"Title", "Bending"}, {"Comment", "曲げ破壊, ν = 0.3"}}, .small = small});
+        write_png(file, gradient(),
+                  {.text = {{"Title", "Bending"}, {"Comment", "曲げ破壊, ν = 0.3"}}, .small = small});
         PngText text;
         EXPECT_EQ(pixel_hash(read_png(file, &text)), pixel_hash(gradient()));
         EXPECT_EQ(text["Title"], "Bending");
         EXPECT_EQ(text["Comment"], "曲げ破壊, ν = 0.3");
     }
     EXPECT_FALSE(fs::exists(file.string() + ".tmp"));
+}
+
+TEST(Png, TransparentPixelsComeBack) {
+    Image image(64, 64);
+    image.transparent = true;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            std::uint8_t* p = image.pixel(x, y);
+            p[3] = static_cast<std::uint8_t>(4 * x);
+            for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(p[3] * (y + c) / 66);
+        }
+    const TemporaryFolder folder;
+    write_png(folder.path() / "a.png", image);
+    const Image back = read_png(folder.path() / "a.png");
+    EXPECT_TRUE(back.transparent);
+    EXPECT_EQ(back.bgra, image.bgra);
+    EXPECT_EQ(pixel_hash(back), pixel_hash(image));
 }
 
 TEST(Png, SmallSettingIsSmaller) {

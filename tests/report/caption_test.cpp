@@ -54,10 +54,10 @@ TEST(Caption, DescribesThePictureForThoseWhoCannotSeeIt) {
 }
 
 TEST(Caption, LatexShowsEveryCharacterAsItIs) {
-    EXPECT_EQ(
-        latex_escaped("50 % of a_b & {c} #1 $2 x^2 ~ \\ ν"),
-        "50 \\% of a\\_b \\& \\{c\\} \\#1 \\$2 x\\textasciicircum{}2 \\textasciitilde{} \\textbackslash{} $\\nu$");
-    const std::string text = latex_snippet(caption_of(broken(), plate(), "", ""), "plate");
+    EXPECT_EQ(latex_escaped("50 % of a_b & {c} #1 $2 x^2 ~ \\ ν"),
+              "50 \\% of a\\_b \\& \\{c\\} \\#1 \\$2 x\\textasciicircum{}2 \\textasciitilde{} "
+              "\\textbackslash{} $\\nu$");
+    const std::string text = latex_snippet(caption_of(broken(), plate(), "", ""), "plate", "movie.mp4");
     EXPECT_NE(text.find("Bending \\& breaking"), std::string::npos);
     EXPECT_NE(text.find("\\label{fig:plate-strip}"), std::string::npos);
 }
@@ -66,8 +66,14 @@ TEST(Caption, QuartoAndMarkdownKeepQuotesAndStarsInTheirPlaces) {
     RunSummary s = broken();
     s.title = "A *plate* \"of\" glass";
     const Caption c = caption_of(s, plate(), "", "");
-    EXPECT_NE(quarto_snippet(c, "x").find("{#fig-x-strip fig-alt=\"A body"), std::string::npos);
-    EXPECT_NE(markdown_snippet(c).find("A \\*plate\\*"), std::string::npos);
+    EXPECT_NE(quarto_snippet(c, "x", "movie.mp4").find("{#fig-x-strip fig-alt=\"A body"), std::string::npos);
+    EXPECT_NE(quarto_snippet(c, "x", "movie.mp4").find("{{< video movie.mp4 "), std::string::npos);
+    EXPECT_NE(quarto_snippet(c, "x", "movie.gif").find("![](movie.gif)"), std::string::npos);
+    EXPECT_NE(markdown_snippet(c, "movie.webm").find("(poster.png)](movie.webm)"), std::string::npos);
+    EXPECT_NE(markdown_snippet(c, "movie.gif").find("](movie.gif)"), std::string::npos);
+    EXPECT_EQ(markdown_snippet(c, "").find("Film"), std::string::npos);
+    EXPECT_EQ(latex_snippet(c, "x", "").find("the film"), std::string::npos);
+    EXPECT_NE(markdown_snippet(c, "movie.mp4").find("A \\*plate\\*"), std::string::npos);
 }
 
 }  // namespace

@@ -128,6 +128,7 @@ time_step_factor = 0.4
 size = [1280, 720]
 colour = { field = "von_mises", map = "viridis", range = ["0 MPa", "20 MPa"] }
 theme = "light"
+background = "transparent"
 show = ["title", "time"]
 window = [["-1 m", "-1 m"], ["70 m", "20 m"]]
 bonds = "all"
@@ -140,7 +141,8 @@ slow = [{ around = "first_break", span = "0.5 s", rate = 0.05 },
 hold = "0.5 s"
 flash = "0.4 s"
 poster = "peak_load"
-formats = ["mp4"]
+formats = ["mp4", "gif"]
+gif_limit = 4
 
 [strip]
 at = ["first_break", "separation + 0.2 s", "3 s"]
