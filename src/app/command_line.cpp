@@ -21,6 +21,7 @@
 #include "app/run.hpp"
 #include "base/parallel.hpp"
 #include "film/encoder.hpp"
+#include "record/provenance.hpp"
 #include "scene/read.hpp"
 #include "scene/schema.hpp"
 
@@ -87,7 +88,8 @@ void add_drawing(Command& command, RendererOptions& renderer) {
 void add_formats(Command& command, std::vector<std::string>& formats) {
     command
         .add_option("--formats", formats,
-                    "films to make: mp4, gif, webm, apng, webp (default: [movie] formats)")
+                    "films to make: mp4, gif, webm, apng, webp (default: [movie] formats); films of other "
+                    "formats stay")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(film_formats()))
@@ -277,7 +279,10 @@ void add_preview(CLI::App& app, int& status) {
     preview->add_option("-o,--output", o->png, "PNG to write")->capture_default_str();
     add_drawing(*preview, o->renderer);
     preview->callback([o, &status] {
-        draw_setup(read_scene(o->scene, o->overrides), o->png, o->renderer);
+        std::vector<std::string> words{"hibi", "preview", o->scene.string()};
+        for (const auto& [name, value] : o->overrides) words.insert(words.end(), {"-p", name + "=" + value});
+        words.insert(words.end(), {"-o", o->png.string()});
+        draw_setup(read_scene(o->scene, o->overrides), o->png, o->renderer, shell_command(words));
         fmt::print("{}\n", o->png.string());
         status = 0;
     });

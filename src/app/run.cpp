@@ -1,6 +1,7 @@
 #include "app/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -64,6 +65,22 @@ void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
                     folder.string(), other));
 }
 
+/// A number that lost its unit on the command line is taken as SI, which may be far from what was meant.
+void note_plain_numbers(const RunOptions& options) {
+    for (const auto& [name, text] : options.overrides) {
+        if (text == "0" || text.find_first_not_of("0123456789+-.eE") != std::string::npos) continue;
+        try {
+            const Scene own = read_scene(options.scene, {});
+            const auto before =
+                std::ranges::find_if(own.params, [&](const Parameter& p) { return p.name == name; });
+            if (before != own.params.end() && !before->unit.empty())
+                fmt::print(stderr, "{}: note: {} = {} has no unit and is taken in SI; the scene says {}\n",
+                           options.scene.string(), name, text, before->text);
+        } catch (const SceneErrors&) {  // it needs the override
+        }
+    }
+}
+
 /// The command that gives this run again. What does not change a result is left out.
 std::string command_of(const RunOptions& options, const fs::path& folder) {
     std::vector<std::string> words{"hibi", "run", options.scene.string()};
@@ -115,8 +132,14 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
     return {};
 }
 
-std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary) {
+std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary,
+                                  const Simulation<2>& simulation) {
     std::vector<std::string> list;
+    if (simulation.can_break() && !summary.events.first_break)
+        list.push_back(
+            fmt::format("nothing broke: in the end the most strained bond is at {:.2g} % of its "
+                        "limit; raise the load, or max_time",
+                        100 * simulation.closest_to_breaking()));
     const Events& events = summary.events;
     if (scene.run.until && scene.run.until->event && !summary.stopped) {
         const EventName event = *scene.run.until->event;
@@ -209,6 +232,7 @@ int run_command(const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     const fs::path folder = options.folder.value_or(fs::path("out") / options.scene.stem());
     refuse_other_scene(folder, options);
+    note_plain_numbers(options);
     Built<2> built = build(scene);
     const Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
@@ -249,7 +273,7 @@ int run_command(const RunOptions& options) {
     summary.worst_imbalance = watch.worst_imbalance();
     summary.imbalance_at_first_break = watch.imbalance_before_first_break();
     summary.trusted = !summary.stopped && summary.worst_imbalance <= trusted_imbalance;
-    if (!summary.stopped) summary.warnings = warnings(scene, summary);
+    if (!summary.stopped) summary.warnings = warnings(scene, summary, simulation);
     summary.seconds["total"] = total.seconds();
     writer.finish(summary);
     if (summary.stopped) {
@@ -280,7 +304,15 @@ int render_command(const RenderOptions& options) {
     const Scene scene = read_scene(options.scene.value_or(folder / "scene.toml"));
     const bool summarised = fs::exists(folder / "run.json");  // a killed run may lack it
     RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
-    draw_with_progress(scene, folder, options.draw, options.quiet, summary);
+    DrawOptions draw = options.draw;
+    if (options.scene || !draw.formats.empty()) {
+        draw.command = {"hibi", "render", folder.string()};
+        if (options.scene) draw.command.insert(draw.command.end(), {"--scene", options.scene->string()});
+        if (!draw.formats.empty())
+            draw.command.insert(draw.command.end(),
+                                {"--formats", fmt::format("{}", fmt::join(draw.formats, ","))});
+    }
+    draw_with_progress(scene, folder, draw, options.quiet, summary);
     if (summarised) write_summary(folder, summary);
     fmt::print("{}\n", made(folder, true, options.draw));
     return 0;

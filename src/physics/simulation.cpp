@@ -393,6 +393,23 @@ void Simulation<Dim>::report_failure() {
 }
 
 template <int Dim>
+double Simulation<Dim>::closest_to_breaking() const {
+    const Bonds& bonds = model_.bonds;
+    double closest = 0;
+    if (!can_break()) return closest;
+    for (int b = 0; b < bonds.count(); ++b) {
+        if (!bonds.is_intact(b)) continue;
+        const int i = bonds.first[b], j = bonds.second[b];
+        const double strain =
+            bond_strain<Dim>(model_.particles.reference_position[j] - model_.particles.reference_position[i],
+                             model_.particles.displacement[j] - model_.particles.displacement[i]);
+        const double bound = strain > 0 ? limits_.upper[b] : limits_.lower[b];
+        if (std::isfinite(bound)) closest = std::max(closest, strain / (std::sqrt(1 + bound) - 1));
+    }
+    return closest;
+}
+
+template <int Dim>
 std::string Simulation<Dim>::likely_cause() const {
     if (time_step_ > 0.95 * stable_time_step_)
         return fmt::format("the time step {:.3g} s is too close to the stable {:.3g} s", time_step_,

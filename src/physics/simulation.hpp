@@ -76,6 +76,8 @@ class Simulation {
 
     /// Set when a number stopped being finite; the state is that of the failure.
     const std::optional<Failure>& failure() const { return failure_; }
+    /// Largest bond strain over its limit [-]; 0 where nothing can break.
+    double closest_to_breaking() const;
     /// Why a run at this state is likely to have gone wrong, for messages.
     std::string likely_cause() const;
 
