@@ -29,8 +29,7 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
 /// The sums of a BLAS with threads of its own depend on their number, and they would fight with ours.
 void keep_blas_to_one_thread() {
     using SetThreads = void (*)(int);
-    if (void* found = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
-        reinterpret_cast<SetThreads>(found)(1);
+    if (void* found = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(found)(1);
 }
 
 }  // namespace

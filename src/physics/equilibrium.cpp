@@ -14,8 +14,8 @@ namespace hibi {
 namespace {
 
 constexpr int most_newton_steps = 40, most_halvings = 12;
-/// Iterations beyond which a new factor is cheaper: one costs as much as ten to twenty of them (measured on 2000 to
-/// 100 000 particles).
+/// Iterations beyond which a new factor is cheaper: one costs as much as ten to twenty of them (measured on
+/// 2000 to 100 000 particles).
 constexpr int most_iterations = 12, most_iterations_when_new = 30;
 /// Shifts tried in turn where the tangent is not positive definite.
 constexpr double first_shift = 1e-8, last_shift = 10, next_shift = 30;
@@ -72,10 +72,10 @@ Equilibrium<Dim>::Equilibrium(const Model<Dim>& model, std::vector<std::array<bo
     const Particles<Dim>& particles = model.particles;
     const Bonds& bonds = model.bonds;
     const auto refuse = [&](int i) {
-        throw std::runtime_error(
-            fmt::format("body \"{}\" can move freely, so it has no equilibrium: hold it with [[fix]], in both "
-                        "directions and against turning",
-                        model.bodies[particles.body[i]].name));
+        throw std::runtime_error(fmt::format(
+            "body \"{}\" can move freely, so it has no equilibrium: hold it with [[fix]], in both "
+            "directions and against turning",
+            model.bodies[particles.body[i]].name));
     };
     const std::vector<char> tied = tied_to_support(bonds, held_);
     for (int i = 0; i < particles.count(); ++i) {
@@ -130,11 +130,12 @@ bool Equilibrium<Dim>::factorise() {
     const Eigen::SparseMatrix<double>& K = tangent_.assemble(held_);
     stiffness_ = K.diagonal();
     ++factorisations_;
-    return cholesky_->factorise(K);
+    // A part that can move without resistance, a fragment on a roller say, must not be driven by rounding.
+    return cholesky_->factorise(K) && cholesky_->weakest(K).ratio > singular_pivot / 100;
 }
 
-/// step = K^-1 residual to the given accuracy, by what factor there is; false where the factor does not do or K
-/// is not positive definite.
+/// step = K^-1 residual to the given accuracy, by what factor there is; false where the factor does not do or
+/// K is not positive definite.
 template <int Dim>
 bool Equilibrium<Dim>::conjugate_gradients(double accuracy, int most) {
     const double goal = accuracy * residual_.norm();
@@ -248,7 +249,8 @@ Settled Equilibrium<Dim>::find(Model<Dim>& model, ElasticLaw<Dim>& law, const st
         if (settled.newton_steps == most_newton_steps) return give_up();
         const double share = std::min(1.0, norm / scale_);
         const double accuracy = std::clamp(share, std::min(0.3 * tolerance / share, 1e-2), 1e-2);
-        if (!newton_step(accuracy, settled.smooth) || !search_along_step(model, law, applied)) return give_up();
+        if (!newton_step(accuracy, settled.smooth) || !search_along_step(model, law, applied))
+            return give_up();
         for (int i = 0; i < n; ++i)
             if (!((u[i] - start[i]).cwiseAbs().maxCoeff() <= flight * extent_)) return give_up();
         law.forces(model);

@@ -22,14 +22,14 @@ std::vector<char> tied_to_support(const Bonds& bonds, const std::vector<std::arr
 /// What became of a search for equilibrium.
 struct Settled {
     bool found = false;
-    bool smooth = true;   ///< no tangent on the way was indefinite: the body did not snap to another shape
+    bool smooth = true;  ///< no tangent on the way was indefinite: the body did not snap to another shape
     int newton_steps = 0;
     double residual = 0;  ///< out-of-balance force over the applied and reaction forces [-]
 };
 
-/// Static equilibrium of the moment-matched model under dead loads, by Newton's method on the potential energy.
-/// The linear systems are solved by conjugate gradients, preconditioned by the last factor of a tangent: one
-/// factor serves many steps, loads and broken bonds, until it takes too many iterations.
+/// Static equilibrium of the moment-matched model under dead loads, by Newton's method on the potential
+/// energy. The linear systems are solved by conjugate gradients, preconditioned by the last factor of a
+/// tangent: one factor serves many steps, loads and broken bonds, until it takes too many iterations.
 template <int Dim>
 class Equilibrium {
  public:

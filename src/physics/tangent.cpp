@@ -148,7 +148,8 @@ const Eigen::SparseMatrix<double>& Tangent<Dim>::assemble(const std::vector<std:
         std::vector<Mat<Dim>> blocks;
         for (int i = begin; i < end; ++i) {
             // Column i; by symmetry its blocks are those of row i, transposed.
-            const int first = matrix_.outerIndexPtr()[Dim * i], size = matrix_.outerIndexPtr()[Dim * i + 1] - first;
+            const int first = matrix_.outerIndexPtr()[Dim * i],
+                      size = matrix_.outerIndexPtr()[Dim * i + 1] - first;
             const int* rows = matrix_.innerIndexPtr() + first;
             blocks.assign(size / Dim, Mat<Dim>::Zero());
             const auto add = [&](int k, const Mat<Dim>& block) {
