@@ -117,6 +117,11 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
         simulation.step();
         watch.look();
         if (simulation.failure()) return simulation.failure()->message;
+        if (simulation.collapse()) {
+            recorder.look();
+            // After a break a collapse is how a fracture may end.
+            return watch.events().first_break ? std::nullopt : simulation.collapse();
+        }
         pull_triggers(scene, watch.events(), simulation);
         recorder.look();
         if (!std::isfinite(recorder.imbalance()) ||
@@ -124,7 +129,7 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
             return fmt::format("step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %); {}",
                                simulation.steps(), simulation.time(), 100 * recorder.imbalance(),
                                simulation.likely_cause());
-        if (simulation.steps() % 64 == 0)
+        if (simulation.steps() % 64 == 0 || scene.run.statics)
             progress.at(simulation.time() / scene.run.max_time, static_cast<double>(simulation.steps()),
                         fmt::format("t = {}, {} bonds broken", format_si(simulation.time(), "s"),
                                     simulation.broken()));
@@ -132,9 +137,10 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
     return {};
 }
 
-std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary,
-                                  const Simulation<2>& simulation) {
+std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simulation,
+                                  const RunSummary& summary) {
     std::vector<std::string> list;
+    if (simulation.collapse()) list.push_back(*simulation.collapse());
     if (simulation.can_break() && !summary.events.first_break)
         list.push_back(
             fmt::format("nothing broke: in the end the most strained bond is at {:.2g} % of its "
@@ -152,9 +158,9 @@ std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary,
     }
     if (!summary.trusted)
         list.push_back(
-            fmt::format("the energy balance is off by {:.2g} %: do not trust this run; a smaller "
-                        "time_step_factor may help",
-                        100 * summary.worst_imbalance));
+            fmt::format("the energy balance is off by {:.2g} %: do not trust this run; {} may help",
+                        100 * summary.worst_imbalance,
+                        scene.run.statics ? "more load_steps" : "a smaller time_step_factor"));
     return list;
 }
 
@@ -259,8 +265,8 @@ int run_command(const RunOptions& options) {
     summary.seconds["setup"] = total.seconds();
 
     if (!options.quiet)
-        fmt::print(stderr, "{}: {} particles, {} bonds, time step {}\n", scene.title, summary.particles,
-                   summary.bonds, format_si(summary.time_step, "s"));
+        fmt::print(stderr, "{}: {} particles, {} bonds, {} step {}\n", scene.title, summary.particles,
+                   summary.bonds, scene.run.statics ? "load" : "time", format_si(summary.time_step, "s"));
     const Stopwatch solving;
     Recorder recorder(scene, simulation, watch, writer);
     summary.stopped = solve(scene, simulation, watch, recorder, options.quiet);
@@ -273,7 +279,7 @@ int run_command(const RunOptions& options) {
     summary.worst_imbalance = watch.worst_imbalance();
     summary.imbalance_at_first_break = watch.imbalance_before_first_break();
     summary.trusted = !summary.stopped && summary.worst_imbalance <= trusted_imbalance;
-    if (!summary.stopped) summary.warnings = warnings(scene, summary, simulation);
+    if (!summary.stopped) summary.warnings = warnings(scene, simulation, summary);
     summary.seconds["total"] = total.seconds();
     writer.finish(summary);
     if (summary.stopped) {
