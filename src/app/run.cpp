@@ -208,6 +208,11 @@ void print_results(const RunSummary& s, const fs::path& folder, const RunOptions
     text += event_line("separation", s.events.separation, true, false);
     text += fmt::format("{:<16} {} of {}, in {} steps of {}\n", "broken bonds", s.broken, s.bonds, s.steps,
                         format_si(s.time_step, "s"));
+    if (s.crack.tip)
+        text += fmt::format("{:<16} {} long, fastest {}; {} fragments, the largest {}, debris {}\n", "cracks",
+                            format_si(s.crack.length, "m"), format_si(s.top_crack_speed, "m/s"),
+                            s.fragments.count, format_si(1000 * s.fragments.largest, "g"),
+                            format_si(1000 * s.fragments.debris, "g"));
     text += fmt::format("{:<16} {:.2g} up to first break, {:.2g} to the end: {}\n", "energy imbalance",
                         s.imbalance_at_first_break, s.worst_imbalance, s.trusted ? "trusted" : "NOT TRUSTED");
     text += fmt::format("{:<16} solve {:.2f}, draw {:.1f}, all {:.1f}\n", "seconds", s.seconds.at("solve"),
@@ -276,6 +281,9 @@ int run_command(const RunOptions& options) {
     summary.steps = simulation.steps();
     summary.end_time = simulation.time();
     summary.events = watch.events();
+    summary.crack = watch.crack();
+    summary.top_crack_speed = watch.top_crack_speed();
+    summary.fragments = watch.fragments();
     summary.worst_imbalance = watch.worst_imbalance();
     summary.imbalance_at_first_break = watch.imbalance_before_first_break();
     summary.trusted = !summary.stopped && summary.worst_imbalance <= trusted_imbalance;

@@ -77,7 +77,8 @@ template <int Dim>
 Watch<Dim>::Watch(const Simulation<Dim>& simulation)
     : simulation_(simulation),
       primary_(primary_load(simulation.physics())),
-      connection_(held_to_loaded(simulation)) {}
+      connection_(held_to_loaded(simulation)),
+      cracks_(simulation.model()) {}
 
 template <int Dim>
 void Watch<Dim>::look() {
@@ -92,6 +93,7 @@ void Watch<Dim>::look() {
         just_broken_.push_back(
             {simulation_.time(), b, i, j, to_3d<Dim>(middle), simulation_.breaking_strains()[k]});
     }
+    cracks_.grow(model, simulation_.just_broken(), simulation_.time());
     const auto event = [&](int bond) {
         Event e{simulation_.time(), now.load, now.displacement, Vec3::Zero()};
         if (bond >= 0) {
@@ -127,6 +129,15 @@ bool Watch<Dim>::settled() const {
 }
 
 template <int Dim>
+const Fragments& Watch<Dim>::fragments() {
+    if (fragments_at_ != simulation_.broken()) {
+        fragments_ = find_fragments(simulation_.model());
+        fragments_at_ = simulation_.broken();
+    }
+    return fragments_;
+}
+
+template <int Dim>
 HistoryRow Watch<Dim>::row() {
     const Energies e = simulation_.energies();
     HistoryRow row{.time = simulation_.time(),
@@ -137,7 +148,9 @@ HistoryRow Watch<Dim>::row() {
                    .released = e.released,
                    .work = e.work,
                    .broken = simulation_.broken(),
-                   .momentum = to_3d<Dim>(simulation_.momentum())};
+                   .momentum = to_3d<Dim>(simulation_.momentum()),
+                   .crack = crack(),
+                   .fragments = fragments()};
     scale_ = std::max({scale_, std::abs(e.work), e.elastic, e.kinetic});
     row.imbalance = scale_ > 0 ? std::abs(e.sum() - e.work) / scale_ : 0;
     last_ = row.imbalance;

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "measure/cracks.hpp"
 #include "measure/history.hpp"
 #include "measure/moment.hpp"
 #include "measure/snapshot.hpp"
@@ -52,6 +53,10 @@ class Watch {
     HistoryRow row();
     double worst_imbalance() const { return settled() ? worst_ : last_; }
     double imbalance_before_first_break() const { return worst_before_break_; }
+    CrackReading crack() const { return cracks_.read(simulation_.time()); }
+    double top_crack_speed() const { return cracks_.top_speed(); }  ///< so far (m/s)
+    /// Counted anew only where bonds broke since the last call.
+    const Fragments& fragments();
     int primary() const { return primary_; }  ///< index of the load that drives curve and events, or -1
 
  private:
@@ -59,6 +64,9 @@ class Watch {
     int primary_ = -1;
     Connection connection_;
     Events events_;
+    Cracks<Dim> cracks_;
+    Fragments fragments_;
+    int fragments_at_ = -1;  ///< broken bonds when they were counted
     bool peak_confirmed_ = false;
     std::vector<Break> just_broken_;
     double scale_ = 0, worst_ = 0, worst_before_break_ = 0, last_ = 0;

@@ -18,11 +18,14 @@ struct RunSummary {
     std::map<std::string, std::string> parameters;  ///< what -p said, as it was written
     std::string command;                            ///< that made the run, ready for a shell
     int particles = 0, bonds = 0, broken = 0, frames = 0, threads = 0;
-    int fps = 0;  ///< of the film; 0 where none is drawn
+    int fps = 0;        ///< of the film; 0 where none is drawn
     int dimension = 2;  ///< components of a position in run.json
     std::int64_t steps = 0;
     double time_step = 0, end_time = 0;
     Events events;
+    CrackReading crack{};        ///< at the end
+    double top_crack_speed = 0;  ///< over the run (m/s)
+    Fragments fragments{};       ///< at the end
     double worst_imbalance = 0, imbalance_at_first_break = 0;
     bool trusted = true;
     std::map<std::string, double> seconds;  ///< setup, solve, draw, encode, total

@@ -23,6 +23,14 @@ Json position_json(const Vec3& position, int dimension) {
     return std::vector<double>(position.data(), position.data() + dimension);
 }
 
+Vec3 position_from_json(const Json& json) {
+    Vec3 position = Vec3::Zero();
+    const auto values = json.get<std::vector<double>>();
+    for (std::size_t a = 0; a < std::min<std::size_t>(3, values.size()); ++a)
+        position[static_cast<int>(a)] = values[a];
+    return position;
+}
+
 Json event_json(const std::optional<Event>& event, int dimension) {
     if (!event) return nullptr;
     return {{"time", event->time},
@@ -46,9 +54,7 @@ std::optional<Event> event_from_json(const Json& json) {
     if (json.is_null()) return std::nullopt;
     Event event{number(json.at("time")), number(json.at("load")), number(json.at("displacement"))};
     if (json.at("position").is_null()) return event;
-    const auto position = json.at("position").get<std::vector<double>>();
-    for (std::size_t a = 0; a < std::min<std::size_t>(3, position.size()); ++a)
-        event.position[static_cast<int>(a)] = position[a];
+    event.position = position_from_json(json.at("position"));
     return event;
 }
 
@@ -80,6 +86,15 @@ Json to_json(const RunSummary& s) {
           {"peak_load", without_place(event_json(s.events.peak_load, s.dimension))},
           {"separation", event_json(s.events.separation, s.dimension)},
           {"end", s.events.end}}},
+        {"cracks",
+         {{"length", s.crack.length},
+          {"tip", s.crack.tip ? position_json(*s.crack.tip, s.dimension) : Json(nullptr)},
+          {"speed", s.crack.speed},
+          {"top_speed", s.top_crack_speed}}},
+        {"fragments",
+         {{"count", s.fragments.count},
+          {"largest_mass", s.fragments.largest},
+          {"debris_mass", s.fragments.debris}}},
         {"energy",
          {{"worst_imbalance", s.worst_imbalance},
           {"imbalance_at_first_break", s.imbalance_at_first_break},
@@ -114,6 +129,17 @@ RunSummary from_json(const Json& json) {
     s.events.peak_load = event_from_json(events.at("peak_load"));
     s.events.separation = event_from_json(events.at("separation"));
     events.at("end").get_to(s.events.end);
+    if (const auto cracks = json.find("cracks");
+        cracks != json.end()) {  // runs of earlier versions lack them
+        s.crack.length = number(cracks->at("length"));
+        if (!cracks->at("tip").is_null()) s.crack.tip = position_from_json(cracks->at("tip"));
+        s.crack.speed = number(cracks->at("speed"));
+        s.top_crack_speed = number(cracks->at("top_speed"));
+        const Json& fragments = json.at("fragments");
+        fragments.at("count").get_to(s.fragments.count);
+        s.fragments.largest = number(fragments.at("largest_mass"));
+        s.fragments.debris = number(fragments.at("debris_mass"));
+    }
     const Json& energy = json.at("energy");
     s.worst_imbalance = number(energy.at("worst_imbalance"));
     s.imbalance_at_first_break = number(energy.at("imbalance_at_first_break"));

@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "record/files.hpp"
@@ -80,6 +83,16 @@ class Table {
         const auto found = column_.find(name);
         if (found == column_.end())
             throw std::runtime_error(fmt::format("{}: the column \"{}\" is missing", file_.string(), name));
+        const double value = rows_[row][found->second];
+        if (std::isnan(value))
+            throw std::runtime_error(
+                fmt::format("{}: a value of column \"{}\" is missing", file_.string(), name));
+        return value;
+    }
+    /// Nothing where the cell is empty or the table has no such column.
+    std::optional<double> optional_number(std::size_t row, const std::string& name) const {
+        const auto found = column_.find(name);
+        if (found == column_.end() || std::isnan(rows_[row][found->second])) return std::nullopt;
         return rows_[row][found->second];
     }
     int whole(std::size_t row, const std::string& name) const { return static_cast<int>(number(row, name)); }
@@ -91,6 +104,10 @@ class Table {
                                                  cells.size(), names_.size()));
         std::vector<double> row(cells.size());
         for (std::size_t c = 0; c < cells.size(); ++c) {
+            if (cells[c].empty()) {
+                row[c] = std::numeric_limits<double>::quiet_NaN();
+                continue;
+            }
             const char* const end = cells[c].data() + cells[c].size();
             const auto [stop, error] = std::from_chars(cells[c].data(), end, row[c]);
             if (error != std::errc() || stop != end)
@@ -120,6 +137,11 @@ std::string history_header(const std::vector<std::string>& load_names, int dimen
         columns.push_back({"load." + name, "N"});
         columns.push_back({"displacement." + name, "m"});
     }
+    columns.push_back({"crack_length", "m"});
+    for (int a = 0; a < dimension; ++a) columns.push_back({fmt::format("crack_tip_{}", axis_names[a]), "m"});
+    columns.insert(
+        columns.end(),
+        {{"crack_speed", "m/s"}, {"fragments", "-"}, {"largest_fragment", "kg"}, {"debris", "kg"}});
     return header(columns, comment);
 }
 
@@ -130,6 +152,10 @@ std::string history_line(const HistoryRow& row, int dimension) {
     for (int a = 0; a < dimension; ++a) line += fmt::format(",{}", row.momentum[a]);
     for (std::size_t i = 0; i < row.loads.size(); ++i)
         line += fmt::format(",{},{}", row.loads[i], row.displacements[i]);
+    line += fmt::format(",{}", row.crack.length);
+    for (int a = 0; a < dimension; ++a) line += row.crack.tip ? fmt::format(",{}", (*row.crack.tip)[a]) : ",";
+    line += fmt::format(",{},{},{},{}", row.crack.speed, row.fragments.count, row.fragments.largest,
+                        row.fragments.debris);
     return line + "\n";
 }
 
@@ -173,6 +199,19 @@ History read_history(const std::filesystem::path& file) {
             row.loads.push_back(number("load." + name));
             row.displacements.push_back(number("displacement." + name));
         }
+        // Runs of earlier versions lack them.
+        const auto measure = [&](const std::string& name) { return table.optional_number(r, name); };
+        row.crack.length = measure("crack_length").value_or(0);
+        row.crack.speed = measure("crack_speed").value_or(0);
+        for (int a = 0; a < history.dimension; ++a) {
+            const auto place = measure(fmt::format("crack_tip_{}", axis_names[a]));
+            if (!place) continue;
+            if (!row.crack.tip) row.crack.tip = Vec3::Zero();
+            (*row.crack.tip)[a] = *place;
+        }
+        row.fragments.count = static_cast<int>(measure("fragments").value_or(0));
+        row.fragments.largest = measure("largest_fragment").value_or(0);
+        row.fragments.debris = measure("debris").value_or(0);
         history.rows.push_back(row);
     }
     return history;

@@ -59,6 +59,8 @@ inline HistoryRow row(double time) {
     r.imbalance = 1e-300;
     r.broken = 7;
     r.momentum = Vec3(8, 9, 0);
+    r.crack = {14, Vec3(1.0 / 3, 15, 0), 16};
+    r.fragments = {17, 18, 19};
     r.loads = {10, 11};
     r.displacements = {12, 13};
     return r;

@@ -31,6 +31,9 @@ RunSummary full_summary() {
     s.end_time = 0.1;
     s.events.first_break = Event{1, 2, 3, Vec3(4, 5, 6)};
     s.events.end = 0.1;
+    s.crack = {0.2, Vec3(7, 8, 9), 10};
+    s.top_crack_speed = 11;
+    s.fragments = {12, 13, 14};
     s.worst_imbalance = 1e-5;
     s.imbalance_at_first_break = 1e-6;
     s.trusted = false;
@@ -66,6 +69,13 @@ TEST(Summary, ComesBack) {
     EXPECT_FALSE(s.events.peak_load);
     EXPECT_FALSE(s.events.separation);
     EXPECT_EQ(s.events.end, expected.events.end);
+    EXPECT_EQ(s.crack.length, expected.crack.length);
+    EXPECT_EQ(s.crack.tip, expected.crack.tip);
+    EXPECT_EQ(s.crack.speed, expected.crack.speed);
+    EXPECT_EQ(s.top_crack_speed, expected.top_crack_speed);
+    EXPECT_EQ(s.fragments.count, expected.fragments.count);
+    EXPECT_EQ(s.fragments.largest, expected.fragments.largest);
+    EXPECT_EQ(s.fragments.debris, expected.fragments.debris);
     EXPECT_EQ(s.worst_imbalance, expected.worst_imbalance);
     EXPECT_EQ(s.imbalance_at_first_break, expected.imbalance_at_first_break);
     EXPECT_EQ(s.trusted, expected.trusted);
@@ -78,14 +88,33 @@ TEST(Summary, HasEveryKeyScriptsRelyOnAndNullForWhatDidNotHappen) {
     const TemporaryFolder folder;
     write_summary(folder.path(), {});
     const json file = json::parse(read_file(folder.path() / "run.json"));
-    for (const char* key :
-         {"/scene/title", "/scene/hash", "/version", "/counts/particles", "/counts/bonds", "/counts/broken",
-          "/counts/steps", "/counts/frames", "/time_step", "/energy/worst_imbalance", "/energy/trusted",
-          "/seconds/setup", "/seconds/solve", "/seconds/draw", "/seconds/encode", "/seconds/total"}) {
+    for (const char* key : {"/scene/title",
+                            "/scene/hash",
+                            "/version",
+                            "/counts/particles",
+                            "/counts/bonds",
+                            "/counts/broken",
+                            "/counts/steps",
+                            "/counts/frames",
+                            "/time_step",
+                            "/cracks/length",
+                            "/cracks/speed",
+                            "/cracks/top_speed",
+                            "/fragments/count",
+                            "/fragments/largest_mass",
+                            "/fragments/debris_mass",
+                            "/energy/worst_imbalance",
+                            "/energy/trusted",
+                            "/seconds/setup",
+                            "/seconds/solve",
+                            "/seconds/draw",
+                            "/seconds/encode",
+                            "/seconds/total"}) {
         ASSERT_TRUE(file.contains(json::json_pointer(key))) << key;
         EXPECT_FALSE(file[json::json_pointer(key)].is_null()) << key;
     }
-    for (const char* key : {"/events/first_break", "/events/peak_load", "/events/separation"}) {
+    for (const char* key :
+         {"/events/first_break", "/events/peak_load", "/events/separation", "/cracks/tip"}) {
         ASSERT_TRUE(file.contains(json::json_pointer(key))) << key;
         EXPECT_TRUE(file[json::json_pointer(key)].is_null()) << key;
     }

@@ -34,6 +34,41 @@ TEST(Tables, HistoryComesBackBitForBit) {
     EXPECT_EQ(r.momentum, expected.momentum);
     EXPECT_EQ(r.loads, expected.loads);
     EXPECT_EQ(r.displacements, expected.displacements);
+    EXPECT_EQ(r.crack.length, expected.crack.length);
+    EXPECT_EQ(r.crack.tip, expected.crack.tip);
+    EXPECT_EQ(r.crack.speed, expected.crack.speed);
+    EXPECT_EQ(r.fragments.count, expected.fragments.count);
+    EXPECT_EQ(r.fragments.largest, expected.fragments.largest);
+    EXPECT_EQ(r.fragments.debris, expected.fragments.debris);
+}
+
+TEST(Tables, TipIsAnEmptyCellBeforeTheFirstBreak) {
+    const TemporaryFolder folder;
+    HistoryRow row = example::row(0.1);
+    row.crack.tip.reset();
+    const std::string line = history_line(row, 2);
+    EXPECT_NE(line.find(",14,,,16,"), std::string::npos) << line;
+    write_file(folder.path() / "h.csv", history_header(example::load_names, 2) + line);
+    EXPECT_FALSE(read_history(folder.path() / "h.csv").rows.at(0).crack.tip);
+}
+
+TEST(Tables, HistoryOfAVersionWithoutCracksIsRead) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "h.csv",
+               "time,load,displacement,kinetic,elastic,contact,damped,released,work,imbalance,broken,"
+               "momentum_x,momentum_y\n1,2,3,4,5,6,7,8,9,10,11,12,13\n");
+    const History history = read_history(folder.path() / "h.csv");
+    EXPECT_EQ(history.rows.at(0).broken, 11);
+    EXPECT_EQ(history.rows.at(0).crack.length, 0);
+    EXPECT_FALSE(history.rows.at(0).crack.tip);
+}
+
+TEST(Tables, ValueThatMustBeThereIsMissed) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "b.csv", breaks_header(2) + "0,1,2,3,,5,6\n");
+    EXPECT_NE(
+        message_of([&] { read_breaks(folder.path() / "b.csv"); }).find("a value of column \"x\" is missing"),
+        std::string::npos);
 }
 
 TEST(Tables, HistoryBeginsWithUnitsAndTheNamesScriptsRelyOn) {
@@ -41,7 +76,8 @@ TEST(Tables, HistoryBeginsWithUnitsAndTheNamesScriptsRelyOn) {
     EXPECT_TRUE(header.starts_with("# time (s), load (N), displacement (m), kinetic (J), "));
     EXPECT_TRUE(header.ends_with(
         "\ntime,load,displacement,kinetic,elastic,contact,damped,released,work,imbalance,broken,"
-        "momentum_x,momentum_y,momentum_z,load.tip,displacement.tip\n"));
+        "momentum_x,momentum_y,momentum_z,load.tip,displacement.tip,"
+        "crack_length,crack_tip_x,crack_tip_y,crack_tip_z,crack_speed,fragments,largest_fragment,debris\n"));
 }
 
 TEST(Tables, ThirdDimensionIsKept) {
