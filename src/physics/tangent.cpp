@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/bond_list.hpp"
+#include "physics/dilatation.hpp"
 #include "physics/weights.hpp"
 
 namespace hibi {
@@ -17,6 +18,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> tangent_at_rest(const Model<Dim>& m
     const Particles<Dim>& particles = model.particles;
     const int n = particles.count();
     const BondList<Dim> list(model, moment_matched_weights(model));
+    const std::vector<double> lambda = dilatation_moduli(model);
 
     // dZ_p / du_j per slot, and dZ_p / du_p
     const auto slope = [&](int p, int k) {
@@ -36,7 +38,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> tangent_at_rest(const Model<Dim>& m
             own_slope[p] -= slope(p, k);
             m += list.own[k] * list.r0[k].squaredNorm() / particles.volume[p];
         }
-        stiffness[p](0, 0) = lame_lambda(material, model.assumption) * particles.volume[p];
+        stiffness[p](0, 0) = lambda[p] * particles.volume[p];
         if (m > 0) stiffness[p](1, 1) = -two_mu[p] * particles.volume[p] / m;
     }
 
