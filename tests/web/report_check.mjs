@@ -49,6 +49,7 @@ await inBrowser({ width: 1280, height: 900 }, async (page, complaints) => {
       await page.mouse.click(box.x + x / view[0] * box.width, box.y + y / view[1] * box.height);
       await settled();
     };
+    await page.keyboard.press('Home'); await settled();
     const before = await readout();
     if (place.of_time) {
       await clickAt(place.axes[0] + place.axes[2] / 2, place.axes[1] + place.axes[3] / 2);
