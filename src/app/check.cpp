@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/estimate.hpp"
+#include "app/quasi_static.hpp"
 #include "app/run.hpp"
 #include "base/units.hpp"
 #include "physics/simulation.hpp"
@@ -15,6 +16,13 @@
 namespace hibi {
 
 namespace {
+
+/// What is found out about a scene by building it.
+struct Facts {
+    Estimate estimate;
+    std::optional<double> period;  ///< of the first mode (s)
+    double damping_ratio = 0;      ///< of that mode
+};
 
 std::string si(double value, const std::string& unit) { return format_si(value, unit, 4, true); }
 
@@ -57,9 +65,26 @@ std::string load_text(const LoadSpec& spec, const Load& load) {
                        load.primary ? "; drives the curve" : "");
 }
 
+/// Loads that come on too fast for a static answer.
+void add_ramp_notes(const Built<2>& built, double period, double ratio, std::vector<std::string>& notes) {
+    for (const Load& load : built.physics.loads) {
+        if (load.kind == Load::Kind::velocity) continue;
+        const double ramp = load.ramp.duration;
+        std::string note = fast_ramp(load.name, ramp, ramp, period, ratio);
+        if (ramp == 0 && load.kind != Load::Kind::displacement)
+            note = fmt::format(
+                "load \"{}\" is suddenly applied: the body swings to as much as twice its static state; for "
+                "a "
+                "static answer: ramp = {}",
+                load.name, format_si(slow_ramp_periods * period, "s", 2));
+        if (!note.empty()) notes.push_back(note);
+    }
+}
+
 /// What a user might not expect of a scene that is right.
-std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built) {
+std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, const Facts& facts) {
     std::vector<std::string> notes;
+    if (facts.period) add_ramp_notes(built, *facts.period, facts.damping_ratio, notes);
     const auto primary =
         std::find_if(scene.loads.begin(), scene.loads.end(), [](const LoadSpec& l) { return l.primary; });
     const bool forced = primary != scene.loads.end() &&
@@ -81,13 +106,26 @@ std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built) {
     if (alone > 0)
         notes.push_back(
             fmt::format("{} particles have no bond: does a notch run through their centres?", alone));
+    for (const Body<2>& body : built.model.bodies) {
+        Vec<2> low = built.model.particles.reference_position[body.begin], high = low;
+        for (int i = body.begin; i < body.end; ++i) {
+            low = low.cwiseMin(built.model.particles.reference_position[i]);
+            high = high.cwiseMax(built.model.particles.reference_position[i]);
+        }
+        if (body.end - body.begin > 1 && (high - low).minCoeff() < body.spacing / 2)
+            notes.push_back(fmt::format(
+                "body \"{}\" is one particle wide: it stretches like a bar, but its bending stiffness is not "
+                "that of a beam; use four particles or more over the width",
+                body.name));
+    }
     if (!breaks) notes.push_back("no material can break: give one a break_strain or a fracture_energy");
     return notes;
 }
 
 void print_report(const Scene& scene, const Built<2>& built, const Simulation<2>& simulation,
-                  const Estimate& estimate) {
+                  const Facts& facts) {
     const Model<2>& model = built.model;
+    const Estimate& estimate = facts.estimate;
     const auto row = [](const std::string& name, const std::string& text) {
         fmt::print("{:<11} {}\n", name, text);
     };
@@ -122,6 +160,9 @@ void print_report(const Scene& scene, const Built<2>& built, const Simulation<2>
                             ? fmt::format(", ratio {} of the first mode", *scene.damping->damping.ratio)
                             : "",
                         scene.damping->until ? ", until " + moment_text(*scene.damping->until) : ""));
+    if (facts.period)
+        row("first mode",
+            fmt::format("period {}, with held and driven particles at rest", si(*facts.period, "s")));
     row("run", fmt::format("{}until {}",
                            scene.run.until ? "until " + moment_text(*scene.run.until) + ", at most " : "",
                            si(scene.run.max_time, "s")));
@@ -144,14 +185,15 @@ void print_report(const Scene& scene, const Built<2>& built, const Simulation<2>
             "{} steps, {:.3g} s to simulate, about {:.3g} s to draw; {:.0f} MB of memory, {:.0f} MB on disk",
             estimate.steps, estimate.solve_seconds, estimate.draw_seconds, estimate.memory / 1e6,
             estimate.disk / 1e6));
-    for (const std::string& note : notes_on(scene, built)) row("note", note);
+    for (const std::string& note : notes_on(scene, built, facts)) row("note", note);
     fmt::print("\nThe scene with every default filled in, in SI units:\n\n{}", write_scene(scene));
 }
 
 void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& simulation,
-                const Estimate& estimate) {
+                const Facts& facts) {
     using nlohmann::ordered_json;
     const Model<2>& model = built.model;
+    const Estimate& estimate = facts.estimate;
     ordered_json bodies = ordered_json::array(), supports = ordered_json::array(),
                  loads = ordered_json::array();
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -182,13 +224,14 @@ void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& 
         {"stages", simulation.stage_names()},
         {"time_step", simulation.time_step()},
         {"stable_time_step", simulation.stable_time_step()},
+        {"first_period", facts.period ? ordered_json(*facts.period) : ordered_json()},
         {"estimate",
          {{"steps", estimate.steps},
           {"solve_seconds", estimate.solve_seconds},
           {"draw_seconds", estimate.draw_seconds},
           {"memory", estimate.memory},
           {"disk", estimate.disk}}},
-        {"notes", notes_on(scene, built)}};
+        {"notes", notes_on(scene, built, facts)}};
     fmt::print("{}\n", json.dump(2));
 }
 
@@ -199,9 +242,13 @@ int check_command(const CheckOptions& options) {
     const Built<2> built = build(scene);
     Simulation<2> simulation(built.model, built.physics);
     require_separable(scene, Watch<2>(simulation));
-    const Estimate estimate = estimate_run(scene, built, simulation);
+    require_steps_that_end(scene, simulation);
+    Facts facts;
+    facts.period = first_period(built, simulation);
+    if (facts.period) facts.damping_ratio = damping_ratio(simulation, *facts.period);
+    facts.estimate = estimate_run(scene, built, simulation);
     // The stages are asked of a simulation that has made steps, the values are those of the scene.
-    (options.json ? print_json : print_report)(scene, built, simulation, estimate);
+    (options.json ? print_json : print_report)(scene, built, simulation, facts);
     return 0;
 }
 

@@ -19,7 +19,9 @@ constexpr std::size_t ring_size = 8;
 
 std::vector<std::int64_t> EvenStates::keep(double time, std::int64_t step) {
     kept_.push_back(step);
-    while (next_ <= time) next_ += interval_;
+    // In one go, and beyond `time` even where the interval is lost in its digits.
+    if (next_ <= time) next_ += interval_ * std::floor((time - next_) / interval_ + 1);
+    next_ = std::max(next_, std::nextafter(time, std::numeric_limits<double>::infinity()));
     if (kept_.size() <= most_) return {};
     std::vector<std::int64_t> kept, dropped;
     for (std::size_t k = 0; k < kept_.size(); ++k) (k % 2 == 0 ? kept : dropped).push_back(kept_[k]);
@@ -114,7 +116,10 @@ void Recorder::keep(EvenStates& series) {
 }
 
 void Recorder::write_state(Snapshot state) {
-    if (++wanted_[state.step] == 1) writer_.state(std::move(state));
+    if (++wanted_[state.step] > 1) return;
+    for (const float strain : state.bond_strain)
+        largest_strain_ = std::max(largest_strain_, std::abs(static_cast<double>(strain)));
+    writer_.state(std::move(state));
 }
 
 }  // namespace hibi

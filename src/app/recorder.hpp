@@ -44,6 +44,8 @@ class Recorder {
     void finish();
     /// Imbalance of the last row [-]; not finite where an energy is not: such a row is not recorded.
     double imbalance() const { return imbalance_; }
+    /// Largest strain, in size, of an intact bond in the recorded states [-].
+    double largest_strain() const { return largest_strain_; }
 
  private:
     void write_row();
@@ -55,7 +57,7 @@ class Recorder {
     Watch<2>& watch_;
     RunWriter& writer_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
-    double last_row_ = 0, imbalance_ = 0;
+    double last_row_ = 0, imbalance_ = 0, largest_strain_ = 0;
     std::size_t most_ = 0;
     /// What rows and states are counted in: the time step (s). A static run has few and dear steps, of which
     /// none should be missed: a part of the shortest.

@@ -7,9 +7,11 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "app/figures.hpp"
 #include "app/progress.hpp"
+#include "app/quasi_static.hpp"
 #include "app/recorder.hpp"
 #include "app/report.hpp"
 #include "base/parallel.hpp"
@@ -28,6 +30,10 @@ namespace fs = std::filesystem;
 /// Beyond this the balance is not merely off: the run makes energy from nothing.
 constexpr double runaway_imbalance = 1;
 constexpr double trusted_imbalance = 0.02;
+/// Of bonds; the elastic law is linear.
+constexpr double most_strain = 0.5;
+/// A body of a few particles makes them in an hour.
+constexpr double most_steps = 1e9;
 
 class Stopwatch {
  public:
@@ -109,6 +115,17 @@ bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
     return end && time >= *end;
 }
 
+/// The particle that moves fastest: where a run goes wrong.
+std::string fastest(const Simulation<2>& simulation) {
+    const std::vector<Vec<2>>& v = simulation.model().particles.velocity;
+    const auto most = std::max_element(v.begin(), v.end(), [](const Vec<2>& a, const Vec<2>& b) {
+        return a.cwiseAbs().maxCoeff() < b.cwiseAbs().maxCoeff();
+    });
+    const auto i = most - v.begin();
+    return fmt::format("fastest is particle {} (body \"{}\")", i,
+                       simulation.model().bodies[simulation.model().particles.body[i]].name);
+}
+
 /// Moves the simulation to its end. Returns why it stopped early, if it did.
 std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, Watch<2>& watch,
                                  Recorder& recorder, bool quiet) {
@@ -126,9 +143,10 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
         recorder.look();
         if (!std::isfinite(recorder.imbalance()) ||
             (watch.settled() && recorder.imbalance() > runaway_imbalance))
-            return fmt::format("step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %); {}",
-                               simulation.steps(), simulation.time(), 100 * recorder.imbalance(),
-                               simulation.likely_cause());
+            return fmt::format(
+                "step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %), {}; {}",
+                simulation.steps(), simulation.time(), 100 * recorder.imbalance(), fastest(simulation),
+                simulation.likely_cause());
         if (simulation.steps() % 64 == 0 || scene.run.statics)
             progress.at(simulation.time() / scene.run.max_time, static_cast<double>(simulation.steps()),
                         fmt::format("t = {}, {} bonds broken", format_si(simulation.time(), "s"),
@@ -137,8 +155,31 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
     return {};
 }
 
+/// A linear law does not know that nothing stretches so far.
+void warn_of_strain(double largest_strain, std::vector<std::string>& list) {
+    if (largest_strain <= most_strain) return;
+    list.push_back(fmt::format(
+        "intact bonds were stretched or squeezed by as much as {:.3g} % of their length: more than a "
+        "linear law can stand for; give the material a break_strain, or lower the load",
+        100 * largest_strain));
+}
+
+/// Damped by a ratio, a run is meant to be slow: what its ramps do to first break, or to the end without one.
+void warn_of_fast_ramps(const Scene& scene, const RunSummary& summary, double damping_rate,
+                        std::vector<std::string>& list) {
+    if (!scene.damping || !scene.damping->damping.ratio) return;
+    const double ratio = *scene.damping->damping.ratio, period = 4 * std::numbers::pi * ratio / damping_rate;
+    for (const LoadSpec& load : scene.loads) {
+        if (load.kind == Load::Kind::velocity || load.ramp == 0) continue;
+        const double rises =
+            summary.events.first_break ? std::min(load.ramp, summary.events.first_break->time) : load.ramp;
+        const std::string text = fast_ramp(load.name, load.ramp, rises, period, ratio);
+        if (!text.empty()) list.push_back(text);
+    }
+}
+
 std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simulation,
-                                  const RunSummary& summary) {
+                                  const RunSummary& summary, double damping_rate, double largest_strain) {
     std::vector<std::string> list;
     if (simulation.collapse()) list.push_back(*simulation.collapse());
     if (simulation.can_break() && !summary.events.first_break)
@@ -161,6 +202,8 @@ std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simul
             fmt::format("the energy balance is off by {:.2g} %: do not trust this run; {} may help",
                         100 * summary.worst_imbalance,
                         scene.run.statics ? "more load_steps" : "a smaller time_step_factor"));
+    warn_of_strain(largest_strain, list);
+    warn_of_fast_ramps(scene, summary, damping_rate, list);
     return list;
 }
 
@@ -238,6 +281,18 @@ void require_separable(const Scene& scene, const Watch<2>& watch) {
               "even before the run (a particle that is both counts as loaded)"}});
 }
 
+void require_steps_that_end(const Scene& scene, const Simulation<2>& simulation) {
+    const double steps = scene.run.max_time / simulation.time_step();
+    if (steps <= most_steps) return;
+    throw SceneErrors(
+        scene.file.string(), "",
+        {{.message = fmt::format(
+              "[run] max_time: {} are {:.2g} steps of {}, which would not end; at most {:g}",
+              format_si(scene.run.max_time, "s"), steps, format_si(simulation.time_step(), "s"), most_steps),
+          .hint =
+              "lower max_time or raise the spacing; are the units of youngs_modulus and density right?"}});
+}
+
 int run_command(const RunOptions& options) {
     const Stopwatch total;
     const Scene scene = read_scene(options.scene, options.overrides);
@@ -249,6 +304,8 @@ int run_command(const RunOptions& options) {
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
     Watch<2> watch(simulation);
     require_separable(scene, watch);
+    require_steps_that_end(scene, simulation);
+    const double damping_rate = simulation.damping_rate();  // before separation ends it
 
     RunSummary summary;
     summary.title = scene.title;
@@ -287,7 +344,8 @@ int run_command(const RunOptions& options) {
     summary.worst_imbalance = watch.worst_imbalance();
     summary.imbalance_at_first_break = watch.imbalance_before_first_break();
     summary.trusted = !summary.stopped && summary.worst_imbalance <= trusted_imbalance;
-    if (!summary.stopped) summary.warnings = warnings(scene, simulation, summary);
+    if (!summary.stopped)
+        summary.warnings = warnings(scene, simulation, summary, damping_rate, recorder.largest_strain());
     summary.seconds["total"] = total.seconds();
     writer.finish(summary);
     if (summary.stopped) {

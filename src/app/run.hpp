@@ -29,6 +29,9 @@ int run_command(const RunOptions& options);
 /// loaded.
 void require_separable(const Scene& scene, const Watch<2>& watch);
 
+/// Throws SceneErrors where the run would take more steps than anyone can wait for.
+void require_steps_that_end(const Scene& scene, const Simulation<2>& simulation);
+
 struct RenderOptions {
     std::filesystem::path folder;
     std::optional<std::filesystem::path> scene{};  ///< of [view] and [movie]; absent: as recorded

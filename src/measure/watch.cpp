@@ -170,6 +170,17 @@ HistoryRow Watch<Dim>::row() {
 
 template class Watch<2>;
 
+namespace {
+
+/// Kept finite, and so what is computed of it: a body that is torn beyond all measure exceeds single
+/// precision.
+float single(double value) {
+    constexpr double largest = 1e37;
+    return static_cast<float>(std::clamp(value, -largest, largest));
+}
+
+}  // namespace
+
 template <int Dim>
 Snapshot take_snapshot(const Simulation<Dim>& simulation) {
     const Model<Dim>& model = simulation.model();
@@ -209,20 +220,19 @@ Snapshot take_snapshot(const Simulation<Dim>& simulation) {
                                      particles.displacement[j] - particles.displacement[i]);
                 if (std::abs(strain) > std::abs(largest)) largest = strain;
             }
-            s.bond_strain[i] = static_cast<float>(largest);
+            s.bond_strain[i] = single(largest);
             s.damage[i] = count > 0 ? static_cast<float>(broken) / static_cast<float>(count) : 0;
             const LocalState<Dim> local = simulation.local(i);
-            s.energy[i] = static_cast<float>(local.energy);
+            s.energy[i] = single(local.energy);
             Mat<3> stress = Mat<3>::Zero();
             stress.template topLeftCorner<Dim, Dim>() = local.stress;
             if (Dim == 2 && model.assumption == Assumption::plane_strain) {
-                // no strain across the plane: what holds it there is lambda times the dilatation
-                const Material& material = model.materials[particles.material[i]];
-                stress(2, 2) = lame_lambda(material, model.assumption) * local.dilatation;
+                // no strain across the plane: Hooke's law with that strain zero
+                const double nu = model.materials[particles.material[i]].poissons_ratio;
+                stress(2, 2) = nu * local.stress.trace();
             }
-            s.stress[i] = {static_cast<float>(stress(0, 0)), static_cast<float>(stress(1, 1)),
-                           static_cast<float>(stress(2, 2)), static_cast<float>(stress(0, 1)),
-                           static_cast<float>(stress(1, 2)), static_cast<float>(stress(0, 2))};
+            s.stress[i] = {single(stress(0, 0)), single(stress(1, 1)), single(stress(2, 2)),
+                           single(stress(0, 1)), single(stress(1, 2)), single(stress(0, 2))};
         }
     });
     return s;

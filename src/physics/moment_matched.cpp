@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "physics/bond_list.hpp"
+#include "physics/dilatation.hpp"
 #include "physics/elastic.hpp"
 
 namespace hibi {
@@ -72,11 +73,9 @@ struct Pull<2> {
 template <int Dim>
 class MomentMatched final : public ElasticLaw<Dim> {
  public:
-    explicit MomentMatched(const Model<Dim>& model) : list_(model, moment_matched_weights(model)) {
-        for (const Material& m : model.materials) {
-            two_mu_.push_back(2 * shear_modulus(m));
-            lambda_.push_back(lame_lambda(m, model.assumption));
-        }
+    explicit MomentMatched(const Model<Dim>& model)
+        : list_(model, moment_matched_weights(model)), lambda_(dilatation_moduli(model)) {
+        for (const Material& m : model.materials) two_mu_.push_back(2 * shear_modulus(m));
         const int n = model.particles.count();
         volume_ = model.particles.volume;
         trace_at_rest_.resize(n);
@@ -87,10 +86,8 @@ class MomentMatched final : public ElasticLaw<Dim> {
     bool forces(Model<Dim>& model) override {
         const Particles<Dim>& particles = model.particles;
         parallel_for(particles.count(), [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                const int material = particles.material[i];
-                pull_[i] = Pull<Dim>(polar_of(particles, i), two_mu_[material], lambda_[material]);
-            }
+            for (int i = begin; i < end; ++i)
+                pull_[i] = Pull<Dim>(polar_of(particles, i), two_mu_[particles.material[i]], lambda_[i]);
         });
         return list_.upper.empty() ? sum_forces<false>(model.particles) : sum_forces<true>(model.particles);
     }
@@ -98,8 +95,7 @@ class MomentMatched final : public ElasticLaw<Dim> {
     LocalState<Dim> local(const Model<Dim>& model, int i) const override {
         const Particles<Dim>& particles = model.particles;
         const std::vector<Vec<Dim>>& u = particles.displacement;
-        const int material = particles.material[i];
-        const double mu = two_mu_[material] / 2, lambda = lambda_[material];
+        const double mu = two_mu_[particles.material[i]] / 2, lambda = lambda_[i];
         const double volume = particles.volume[i];
         const Polar2 p = polar_of(particles, i);
         const Mat<Dim> R = p.turn.matrix();
@@ -180,9 +176,10 @@ class MomentMatched final : public ElasticLaw<Dim> {
     }
 
     BondList<Dim> list_;
-    std::vector<double> two_mu_, lambda_;  ///< per material (Pa)
-    std::vector<double> volume_;           ///< V (m^3)
-    std::vector<double> trace_at_rest_;    ///< m_i [-]
+    std::vector<double> lambda_;         ///< per particle (Pa)
+    std::vector<double> two_mu_;         ///< per material (Pa)
+    std::vector<double> volume_;         ///< V (m^3)
+    std::vector<double> trace_at_rest_;  ///< m_i [-]
     std::vector<Pull<Dim>> pull_;
 };
 

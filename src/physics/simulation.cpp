@@ -416,9 +416,16 @@ void Simulation<Dim>::report_failure() {
                                 steps_, time(), i, model_.bodies[particles.body[i]].name, likely_cause())};
         return;
     }
-    failure_ = Failure{steps_, time(), -1,
-                       fmt::format("step {}, t = {:.6g} s: the kinetic energy is no longer finite; {}",
-                                   steps_, time(), likely_cause())};
+    const auto fastest = std::max_element(particles.velocity.begin(), particles.velocity.end(),
+                                          [](const Vec<Dim>& a, const Vec<Dim>& b) {
+                                              return a.cwiseAbs().maxCoeff() < b.cwiseAbs().maxCoeff();
+                                          });
+    const int i = static_cast<int>(fastest - particles.velocity.begin());
+    failure_ =
+        Failure{steps_, time(), i,
+                fmt::format("step {}, t = {:.6g} s: the kinetic energy is no longer finite, fastest is "
+                            "particle {} (body \"{}\"); {}",
+                            steps_, time(), i, model_.bodies[particles.body[i]].name, likely_cause())};
 }
 
 template <int Dim>
@@ -441,8 +448,8 @@ double Simulation<Dim>::closest_to_breaking() const {
 template <int Dim>
 std::string Simulation<Dim>::likely_cause() const {
     if (!physics_.statics && time_step_ > 0.95 * stable_time_step_)
-        return fmt::format("the time step {:.3g} s is too close to the stable {:.3g} s", time_step_,
-                           stable_time_step_);
+        return fmt::format("the time step {:.3g} s is too close to the stable {:.3g} s: leave it out",
+                           time_step_, stable_time_step_);
     double largest = 0;
     const Bonds& bonds = model_.bonds;
     for (int b = 0; b < bonds.count(); ++b) {
@@ -454,7 +461,7 @@ std::string Simulation<Dim>::likely_cause() const {
     if (!(largest < 0.5))
         return "intact bonds are stretched or squeezed by more than half their length: give the material a "
                "break_strain, lower the load, or raise it more slowly";
-    return "the load or the prescribed motion may be far too large for the material";
+    return "the load or the prescribed motion may be far too large for the material: are their units right?";
 }
 
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "physics/dilatation.hpp"
 #include "physics/weights.hpp"
 
 namespace hibi {
@@ -21,15 +22,14 @@ Mat<2> turn_and_stretch(double own, const Vec<2>& r0) {
 
 template <int Dim>
 Tangent<Dim>::Tangent(const Model<Dim>& model)
-    : list_(model, moment_matched_weights(model)), volume_(model.particles.volume) {
+    : list_(model, moment_matched_weights(model)),
+      volume_(model.particles.volume),
+      lambda_(dilatation_moduli(model)) {
     static_assert(Dim == 2, "Z is plane");
     const int n = model.particles.count();
     two_mu_.resize(n);
-    lambda_.resize(n);
     for (int i = 0; i < n; ++i) {
-        const Material& material = model.materials[model.particles.material[i]];
-        two_mu_[i] = 2 * shear_modulus(material);
-        lambda_[i] = lame_lambda(material, model.assumption);
+        two_mu_[i] = 2 * shear_modulus(model.materials[model.particles.material[i]]);
     }
     springs_.resize(n);
     own_slope_.resize(n);

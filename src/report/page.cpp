@@ -273,6 +273,7 @@ std::string report_page(const PageContent& c) {
         "</div><button id=\"theme\" type=\"button\" aria-label=\"Light or "
         "dark\">◐</button></header>\n<main>\n";
     page += fmt::format("<p class=\"outcome\">{}</p>\n", escaped(outcome(s)));
+    if (!s.trusted) page += verdict(s);  // before the film is believed
     page += "<div class=\"stage\"><div>\n" + film_html(c) + "</div>\n";
     if (!curves.empty())
         page += "<section class=\"charts\" aria-label=\"Curves\">\n" + curves + "</section>\n";
@@ -291,7 +292,8 @@ std::string report_page(const PageContent& c) {
             "<h2>Crack history</h2>\n<figure class=\"cracks\">{}</figure>\n",
             in_both_themes(c.cracks_light, c.cracks_dark,
                            "Each broken bond in the unloaded body, coloured by its time of breaking"));
-    page += "<h2>Results</h2>\n" + verdict(s);
+    page += "<h2>Results</h2>\n";
+    if (s.trusted) page += verdict(s);
     for (const std::string& warning : s.warnings)
         page += fmt::format("<p class=\"warning\"><strong>Warning:</strong> {}</p>\n", escaped(warning));
     page += results(s);

@@ -30,8 +30,11 @@ BlockReader::BlockReader(ReadContext& context, const Value& table, const KeyBloc
             std::string message = fmt::format("unknown key \"{}\" in {}", entry.key, title_);
             const auto near = context_.problems.many() ? std::nullopt : nearest(entry.key, block.key_names());
             if (near) message += fmt::format("; did you mean \"{}\"?", *near);
-            context_.problems.add(path_ + "/" + entry.key, entry.place, message,
-                                  near ? "" : "known: " + list_of(block.key_names()));
+            std::string hint = near ? "" : "known: " + list_of(block.key_names());
+            for (const KeyBlock& other : scene_blocks())
+                if (other.name == entry.key && !other.words.empty())
+                    hint = "it stands at the top of the file, above the first block";
+            context_.problems.add(path_ + "/" + entry.key, entry.place, message, hint);
             continue;
         }
         context_.problems.stands_at(path_ + "/" + entry.key, entry.value.place);

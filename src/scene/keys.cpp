@@ -165,13 +165,14 @@ const std::vector<KeyBlock>& scene_blocks() {
              R"(["0 m/s^2", "-9.81 m/s^2"])"},
         }},
         {"damping", "[damping]", Form::single,
-         "Drag on every particle, in proportion to its mass; absent: none.", {
+         "Drag on every particle, in proportion to its mass; absent: none. In place of the block, above the first one: "
+         "damping = \"quasi-static\", a ratio of 0.3 until separation.", {
             {"ratio", quantity, "", "",
              "of the first mode of vibration; 1 just suppresses it. For bodies that are held",
              "0.3"},
             {"rate", quantity, "1/s", "", "c in a = -c v, in place of ratio", R"("0.5 s^-1")"},
             {"until", moment, "", "never", "when it ends", R"("separation")"},
-        }},
+        }, true, false, {"quasi-static"}},
         {"run", "[run]", Form::single, "How long, and in which steps.", {
             {"until", moment, "", "max_time", "when the run ends", R"("separation + 0.5 s")"},
             {"max_time", quantity, "s", "required, unless until is a time", "when it ends at the latest",

@@ -46,6 +46,7 @@ struct KeyBlock {
     std::vector<Key> keys{};
     bool available = true;
     bool required = false;  ///< without it there is no scene
+    std::vector<std::string> words{};  ///< texts that may stand in place of the block: name = "word"
 
     const Key* find(const std::string& key) const;
     std::vector<std::string> key_names() const;

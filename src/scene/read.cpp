@@ -1,4 +1,3 @@
-#include "base/units.hpp"
 #include "scene/read.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include <memory>
 
 #include "base/hash.hpp"
+#include "base/units.hpp"
 #include "scene/build.hpp"
 #include "scene/checks.hpp"
 #include "scene/prescan.hpp"
@@ -148,11 +148,17 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
                                  "leave it out");
         const bool tables = std::all_of(entry.value.items.begin(), entry.value.items.end(),
                                         [](const Value& item) { return item.kind == Value::Kind::table; });
+        if (entry.value.kind == Value::Kind::text &&
+            std::find(block.words.begin(), block.words.end(), entry.value.text) != block.words.end())
+            continue;
         if (block.form == KeyBlock::Form::list ? entry.value.kind != Value::Kind::array || !tables
-                                               : entry.value.kind != Value::Kind::table)
+                                               : entry.value.kind != Value::Kind::table) {
+            std::string hint = "write " + block.title;
+            for (const std::string& word : block.words)
+                hint += fmt::format(", or {} = \"{}\"", block.name, word);
             context.problems.add(entry.key, entry.place,
-                                 fmt::format("{} stands where a block is expected", shown),
-                                 fmt::format("write {}", block.title));
+                                 fmt::format("{} stands where a block is expected", shown), hint);
+        }
     }
     BlockReader reader(context, own, top, "", "the scene");
     if (const auto version = reader.integer("version"); version && *version != 1)

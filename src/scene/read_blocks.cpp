@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scene/read_shape.hpp"
 #include "scene/suggest.hpp"
 
 namespace hibi {
 
 namespace {
+
+/// Damping ratio of the first mode at which a load on a slow ramp finds the body nearly at its static state:
+/// enough to still the swing within a period or two, and little lag.
+constexpr double quasi_static_ratio = 0.3;
 
 /// Sets a value that was read; keeps the default otherwise.
 template <class To, class From>
@@ -221,6 +227,13 @@ void read_surroundings(const Value& document, ReadContext& context, Scene& scene
             (*kind == "ratio" ? scene.damping->damping.ratio : scene.damping->damping.rate) =
                 block->quantity(*kind);
         scene.damping->until = block->moment("until");
+    } else if (const Value* word = document.find("damping"); word && word->kind == Value::Kind::text) {
+        scene.damping.emplace().damping.ratio = quasi_static_ratio;
+        const bool breaks = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                        [](const Material& m) { return m.can_break(); });
+        // Bonds that break while the load still rises belong to the quasi-static part; fragments fly.
+        if (breaks && !scene.loads.empty() && !scene.fixes.empty())
+            scene.damping->until = Moment{EventName::separation, 0};
     }
 }
 

@@ -170,6 +170,9 @@ std::string scene_schema() {
             its = {{"type", "object"}, {"description", block.meaning}, {"additionalProperties", its}};
         else if (block.form == KeyBlock::Form::list)
             its = {{"type", "array"}, {"description", block.meaning}, {"items", its}};
+        if (!block.words.empty())
+            its = {{"description", block.meaning},
+                   {"anyOf", {Json{{"type", "string"}, {"enum", block.words}}, its}}};
         schema["properties"][block.name] = its;
         if (block.required) schema["required"].push_back(block.name);
     }

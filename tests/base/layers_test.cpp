@@ -47,7 +47,9 @@ Table layers() {
 const std::vector<std::pair<std::string, std::set<std::string>>> rooms_of_libraries = {
     {"hdf5.*", {"record"}},
     {"libav.*|libsw.*", {"film"}},
-    {"(GL|GLES.?|EGL)/.*|dlfcn\\.h", {"render"}},
+    {"(GL|GLES.?|EGL)/.*", {"render"}},
+    {"dlfcn\\.h", {"render", "physics"}},  // OpenGL of one's choice; the threads of BLAS
+    {"cholmod\\.h", {"physics"}},
     {"toml\\+\\+/.*", {"scene"}},
     {"cairo.*|png\\.h", {"image"}},
     {"ft2build\\.h|freetype.*", {"image"}},

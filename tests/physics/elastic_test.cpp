@@ -242,6 +242,37 @@ TEST(MomentMatched, AffineDeformationGivesTheExactStressAndEnergy) {
     EXPECT_NEAR(law->energy(model), density * 20 * 12 * 0.25 * 0.25, 1e-4 * law->energy(model));
 }
 
+/// What a bar carries: E A strain; no strain across the plane makes it E / (1 - nu^2).
+TEST(MomentMatched, ASingleRowOrColumnOfParticlesIsABar) {
+    for (const Assumption assumption : {Assumption::plane_stress, Assumption::plane_strain})
+        for (const int axis : {0, 1}) {
+            Material material = test::concrete();
+            Model<2> model = axis == 0 ? plate(20, 1, 0.25, material, assumption)
+                                       : plate(1, 20, 0.25, material, assumption);
+            const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
+            const double strain = 1e-3;
+            for (int i = 0; i < model.particles.count(); ++i)
+                model.particles.displacement[i][axis] = strain * model.particles.reference_position[i][axis];
+            law->forces(model);
+            double carried = 0;  // through the middle
+            for (const int i : test::where(model, [&](const Vec<2>& X) { return X[axis] < 2.5; }))
+                carried += model.particles.force[i][axis];
+            const double E = 2.1e8 / (assumption == Assumption::plane_strain ? 1 - 0.3 * 0.3 : 1);
+            EXPECT_NEAR(carried, E * 0.25 * strain, 1e-9 * carried) << axis;
+            EXPECT_NEAR(law->local(model, 10).stress(axis, axis), E * strain, 1e-9 * E * strain);
+            // Nor does an estimate of the time step or of a first mode see another body.
+            Model<2> at_rest = model;
+            for (Vec<2>& u : at_rest.particles.displacement) u.setZero();
+            const auto K = tangent(at_rest);
+            Eigen::VectorXd u = Eigen::VectorXd::Zero(K.cols());
+            for (int i = 0; i < model.particles.count(); ++i)
+                u[2 * i + axis] = model.particles.displacement[i][axis];
+            const Eigen::VectorXd f = K * u;
+            for (int i = 0; i < model.particles.count(); ++i)
+                EXPECT_NEAR(-f[2 * i + axis], model.particles.force[i][axis], 1e-9 * carried) << i;
+        }
+}
+
 TEST(Weights, MomentsMatchWherePossibleAndFactorsStayBounded) {
     const Model<2> model = plate(8, 6, 1);
     const BondWeights s = moment_matched_weights(model);

@@ -68,6 +68,20 @@ TEST(ReadScene, MaxTimeIsNotNeededWhereUntilIsATime) {
               "s.toml:24:1: error: missing key \"max_time\" in [run]");
 }
 
+TEST(ReadScene, QuasiStaticDampingIsARatioUntilSeparationWhereThereMayBeOne) {
+    const std::string line = "damping = \"quasi-static\"\n";
+    const Scene scene = parse_scene(line + small_scene, "s.toml");
+    ASSERT_TRUE(scene.damping);
+    EXPECT_EQ(scene.damping->damping.ratio, 0.3);
+    ASSERT_TRUE(scene.damping->until);
+    EXPECT_EQ(scene.damping->until->event, EventName::separation);
+    EXPECT_NE(write_scene(scene).find("[damping]\nratio = 0.3\nuntil = \"separation\"\n"), std::string::npos);
+
+    std::string lasting = small("break_strain = 0.1\n", "");
+    lasting.replace(lasting.find("until = \"separation + 0.5 s\"\n"), 29, "");
+    EXPECT_FALSE(parse_scene(line + lasting, "s.toml").damping->until);
+}
+
 TEST(Overrides, ReplaceAParameterAndWhatFollowsFromIt) {
     const std::string text = small("spacing = \"4 m\"", "side = \"8 m\"\nspacing = \"side / 2\"");
     EXPECT_EQ(parse_scene(text, "s.toml", {{"side", "4 m"}}).bodies[0].spacing(Vec3::Zero(), 0), 2);

@@ -25,6 +25,10 @@ Json properties_of(const Json& schema, const KeyBlock& block) {
     if (!block.name.empty()) place = schema["properties"][block.name];
     if (block.form == Form::list) place = place["items"];
     if (block.form == Form::named) place = place["additionalProperties"];
+    if (!block.words.empty()) {
+        EXPECT_EQ(place["anyOf"][0]["enum"], block.words) << block.title;
+        place = place["anyOf"][1];
+    }
     return place;
 }
 
@@ -107,7 +111,8 @@ class WebSchema : public testing::Test {
 };
 
 TEST_F(WebSchema, AcceptsWhatTheReaderAcceptsAndEveryExampleOfTheTable) {
-    std::vector<fs::path> files{write("everything", everything), write("small", small_scene)};
+    std::vector<fs::path> files{write("everything", everything), write("small", small_scene),
+                                write("word", "damping = \"quasi-static\"\n" + std::string(small_scene))};
     for (const auto& entry : fs::directory_iterator(HIBI_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
         files.push_back(entry.path());
@@ -136,6 +141,7 @@ TEST_F(WebSchema, RefusesWhatTheReaderRefusesForItsForm) {
         {"typo", "ramp =", "rampe ="},
         {"unknown_block", "[run]", "[movies]\nfps = 25\n[run]"},
         {"wrong_kind", "ramp = \"40 s\"", "ramp = true"},
+        {"unknown_word", "version = 1", "version = 1\ndamping = \"static\""},
         {"one_axis", "force = [\"0 N\", \"-80 MN\"]", "force = [\"-80 MN\"]"},
         {"unknown_choice", "hold = [\"x\", \"y\"]", "hold = [\"x\", \"up\"]"},
         {"missing_key", "poissons_ratio = 0.3\n", ""},

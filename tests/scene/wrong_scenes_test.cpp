@@ -194,6 +194,14 @@ INSTANTIATE_TEST_SUITE_P(
               "s.toml:26:12: error: [run] max_time needs a time (s); found a date or time of day\n"
               "   26 | max_time = 1979-05-27\n"
               "      |            ^^^^^^^^^^ for example: max_time = \"60 s\""},
+        Wrong{"AWordThatDampingDoesNotKnow", "version = 1", "damping = \"static\"",
+              "s.toml:1:1: error: damping = ... stands where a block is expected\n"
+              "    1 | damping = \"static\"\n"
+              "      | ^^^^^^^ write [damping], or damping = \"quasi-static\""},
+        Wrong{"AWordForDampingInsideABlock", "ramp = \"40 s\"", "damping = \"quasi-static\"",
+              "s.toml:23:1: error: unknown key \"damping\" in [[load]]\n"
+              "   23 | damping = \"quasi-static\"\n"
+              "      | ^^^^^^^ it stands at the top of the file, above the first block"},
         Wrong{"AFreePartWithADampingRatio", "hold = [\"x\", \"y\"]", "hold = [\"x\"]\n[damping]\nratio = 0.3",
               "s.toml:20:9: error: [damping] ratio: the part of the model at (38 m, 18 m) can move freely, "
               "so there is no "

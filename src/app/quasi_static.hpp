@@ -1,0 +1,35 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "physics/simulation.hpp"
+#include "scene/scene.hpp"
+
+namespace hibi {
+
+/// A load that rises evenly finds the body behind its static state. Both in per cent of the load after
+/// `periods` first periods:
+///     lag = ratio / (pi N)                                 the load at first break is that much too high
+///     swing = exp(-2 pi ratio N) / (2 pi N)                and up to that much too high or too low besides
+/// The response of one mode to a ramp. Measured on a cantilever of 20 x 10 particles, ratios 0.05 to 1 and 2
+/// to 30 periods: see RampBias in tests/app/quasi_static_test.cpp.
+struct RampBias {
+    double lag = 0, swing = 0;
+};
+RampBias ramp_bias(double ratio, double periods);
+
+/// From here on a ramp counts as slow, and what the lag leaves is below 1 % at a ratio of 0.3.
+inline constexpr double slow_ramp_periods = 10;
+
+/// Of the first mode, held and driven particles at rest (s). Nothing where a body can move freely, nothing is
+/// held, or there are so many particles that finding it would take longer than a check may.
+std::optional<double> first_period(const Built<2>& built, const Simulation<2>& simulation);
+
+/// Damping ratio of a mode of that period; 0 when undamped.
+double damping_ratio(const Simulation<2>& simulation, double period);
+
+/// What a load that has risen for `seconds` does to the load at first break, for people; "" where the ramp is
+/// slow.
+std::string fast_ramp(const std::string& load, double ramp, double seconds, double period, double ratio);
+
+}  // namespace hibi
