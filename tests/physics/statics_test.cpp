@@ -67,7 +67,7 @@ TEST_P(StaticAgainstExplicit, TipDeflectionsAgree) {
     EXPECT_GT(deflection, GetParam() < 1e5 ? 0.01 : 6);
 }
 INSTANTIATE_TEST_SUITE_P(Loads, StaticAgainstExplicit, testing::Values(2e4, 1.7e7),
-                         [](const auto& info) { return info.param < 1e5 ? "Small" : "AThirdOfTheLength"; });
+                         [](const auto& load) { return load.param < 1e5 ? "Small" : "AThirdOfTheLength"; });
 
 TEST(Statics, PrescribedMotionNeedsTheForceThatCausesIt) {
     const double force = 4e6;

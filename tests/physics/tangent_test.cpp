@@ -48,7 +48,7 @@ TEST_P(TangentAt, IsTheDerivativeOfTheForcesWithBrokenBonds) {
     }
 }
 INSTANTIATE_TEST_SUITE_P(PoissonsRatio, TangentAt, testing::Values(0, 0.3, 0.49),
-                         [](const auto& info) { return std::to_string(static_cast<int>(100 * info.param)); });
+                         [](const auto& nu) { return std::to_string(static_cast<int>(100 * nu.param)); });
 
 // The pattern is found once: what breaks or moves later must find its place in it.
 TEST(Tangent, UpdatedAfterBreaksItIsThatOfTheDamagedModel) {
