@@ -165,15 +165,17 @@ bool Equilibrium<Dim>::conjugate_gradients(double accuracy, int most) {
 
 template <int Dim>
 bool Equilibrium<Dim>::newton_step(double accuracy, bool& smooth) {
+    // A step as long as the body says that something moves almost without resistance.
+    const auto is_sane = [&] { return step_.cwiseAbs().maxCoeff() <= extent_; };
     tangent_.shift(0);
-    if (factorised_ && conjugate_gradients(accuracy, most_iterations)) return true;
+    if (factorised_ && conjugate_gradients(accuracy, most_iterations) && is_sane()) return true;
     for (double shift = 0; shift <= last_shift; shift = std::max(first_shift, next_shift * shift)) {
         tangent_.shift(shift);
         factorised_ = factorise();
         if (!factorised_) continue;
         if (shift > 0) smooth = false;
         conjugate_gradients(accuracy, most_iterations_when_new);
-        return step_.allFinite() && step_.dot(residual_) > 0;
+        if (is_sane() && step_.dot(residual_) > 0) return true;
     }
     return false;
 }
@@ -183,7 +185,7 @@ template <int Dim>
 bool Equilibrium<Dim>::search_along_step(Model<Dim>& model, ElasticLaw<Dim>& law,
                                          const std::vector<Vec<Dim>>& applied) {
     std::vector<Vec<Dim>>& u = model.particles.displacement;
-    const std::vector<Vec<Dim>> start = u;
+    before_step_ = u;
     double parts = 0;
     const auto potential = [&] {
         const double elastic = law.energy(model), work = dot<Dim>(applied, u);
@@ -194,17 +196,17 @@ bool Equilibrium<Dim>::search_along_step(Model<Dim>& model, ElasticLaw<Dim>& law
     double length = 1;
     for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
         for (int i = 0; i < model.particles.count(); ++i)
-            u[i] = start[i] + length * step_.segment<Dim>(Dim * i);
+            u[i] = before_step_[i] + length * step_.segment<Dim>(Dim * i);
         // The slack is rounding: near the minimum the energy no longer tells where it lies.
         if (potential() <= before - 1e-4 * length * slope + 1e-12 * parts) return true;
     }
-    u = start;
+    u = before_step_;
     return false;
 }
 
 template <int Dim>
 Settled Equilibrium<Dim>::find(Model<Dim>& model, ElasticLaw<Dim>& law, const std::vector<Vec<Dim>>& applied,
-                               const std::vector<Vec<Dim>>& moved) {
+                               const std::vector<Vec<Dim>>& moved, const std::function<bool()>& enough) {
     std::vector<Vec<Dim>>& u = model.particles.displacement;
     const std::vector<Vec<Dim>> start = u;
     const int n = model.particles.count();
@@ -254,6 +256,10 @@ Settled Equilibrium<Dim>::find(Model<Dim>& model, ElasticLaw<Dim>& law, const st
         for (int i = 0; i < n; ++i)
             if (!((u[i] - start[i]).cwiseAbs().maxCoeff() <= flight * extent_)) return give_up();
         law.forces(model);
+        if (enough && enough()) {
+            settled.stopped = true;
+            return settled;
+        }
         balance(model, applied);
         tangent_.update(model);
     }

@@ -1,6 +1,6 @@
 #pragma once
 #include <array>
-#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,7 +22,8 @@ std::vector<char> tied_to_support(const Bonds& bonds, const std::vector<std::arr
 /// What became of a search for equilibrium.
 struct Settled {
     bool found = false;
-    bool smooth = true;  ///< no tangent on the way was indefinite: the body did not snap to another shape
+    bool stopped = false;  ///< by `enough`, before equilibrium was found
+    bool smooth = true;    ///< no tangent on the way was indefinite: the body did not snap to another shape
     int newton_steps = 0;
     double residual = 0;  ///< out-of-balance force over the applied and reaction forces [-]
 };
@@ -40,9 +41,13 @@ class Equilibrium {
 
     /// Moves the free components until the forces of `law` and `applied` (N, per particle) balance; `moved`,
     /// if not empty, says by how much held components move on the way (m). The model is left in equilibrium,
-    /// or, where none is found, as it was. Bonds may have broken since the last call.
+    /// or, where none is found, as it was. Bonds may have broken since the last call. After every step down
+    /// the energy `enough`, if given, is asked whether to stop there.
     Settled find(Model<Dim>& model, ElasticLaw<Dim>& law, const std::vector<Vec<Dim>>& applied,
-                 const std::vector<Vec<Dim>>& moved = {});
+                 const std::vector<Vec<Dim>>& moved = {}, const std::function<bool()>& enough = {});
+
+    /// Displacements from which the last step of find() started (m).
+    const std::vector<Vec<Dim>>& before_last_step() const { return before_step_; }
 
     /// The particle stays where it is from now on.
     void hold(int particle);
@@ -69,6 +74,7 @@ class Equilibrium {
     Eigen::VectorXd stiffness_;        ///< diagonal of the last assembled tangent (N/m)
     Eigen::VectorXd residual_, step_;  ///< out-of-balance forces (N), 0 where held; Newton step (m)
     double scale_ = 0, floor_ = 0;     ///< applied and reaction forces; what rounding leaves of them (N)
+    std::vector<Vec<Dim>> before_step_;
     int factorisations_ = 0, iterations_ = 0;
 };
 

@@ -65,11 +65,12 @@ struct Damping {
 struct Statics {
     double duration = 1;     ///< in which all load steps are made (s)
     int load_steps = 50;     ///< of equal length
-    bool sequential = true;  ///< only the bond furthest beyond its limit breaks, then the others are judged anew
+    bool sequential = true;  ///< bonds break one by one, and what is left moves on in between; else all that
+                             ///< are beyond their limits in equilibrium break together
 
     double step() const { return duration / load_steps; }
-    /// Time that passes from one break to the next while the load stands still (s): a film shows them one after
-    /// the other.
+    /// Time that passes from one break to the next while the load stands still (s): a film shows them one
+    /// after the other.
     double pause() const { return step() / 500; }
 };
 

@@ -130,11 +130,12 @@ class Simulation {
     void static_step();
     std::vector<std::string> static_stage_names() const;
     void relax();
+    void go_back_to_next_break();
     void raise_loads();
     void pause();
     void approach(double to);
     void find_first_break(double from, double lower, double upper);
-    bool settle(double load_time, double share = 1);
+    Settled settle(double load_time, double share = 1, const std::function<bool()>& enough = {});
     StaticState static_state() const;
     void restore(const StaticState& state);
     void count_work(const StaticState& before, bool smooth);

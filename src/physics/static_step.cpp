@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/parallel.hpp"
 #include "base/units.hpp"
 #include "physics/simulation.hpp"
 
@@ -34,7 +35,7 @@ void Simulation<Dim>::start_statics() {
     const StaticState before = static_state();
     double done = 0, part = 1;
     while (done < 1) {
-        if (settle(0, done + part))
+        if (settle(0, done + part).found)
             done += part;
         else
             part /= 2;
@@ -60,16 +61,47 @@ void Simulation<Dim>::static_step() {
     if (!collapse_ && can_break()) break_overstrained();
 }
 
+/// Equilibrium again at the same load, after breaks. Where bonds break one by one and there is none that all
+/// bear, the body goes towards it only until the next one breaks: a part that is being torn off would
+/// otherwise be drawn out by its last bonds to many times its length.
 template <int Dim>
 void Simulation<Dim>::relax() {
     const StaticState before = static_state();
     pause();
-    settled_ = settle(load_time_);
-    if (settled_)
+    Settled settled = settle(load_time_);
+    const auto overstrained = [&] { return highest_utilisation() > 1; };
+    if (can_break() && physics_.statics->sequential && (!settled.found || overstrained())) {
+        if (settled.found) restore(before);
+        // The way down the energy is the nearest there is to what the body would do.
+        settled = settle(load_time_, 1, overstrained);
+        if (settled.stopped) go_back_to_next_break();
+    }
+    settled_ = true;
+    if (settled.found || settled.stopped)
         count_work(before, false);
     else
         collapse_ = fmt::format("no equilibrium after the break at t = {}: the body collapses",
                                 format_si(load_time_, "s", 4));
+}
+
+/// Within the last step towards equilibrium, to the place where a bond passes its limit.
+template <int Dim>
+void Simulation<Dim>::go_back_to_next_break() {
+    std::vector<Vec<Dim>>& u = model_.particles.displacement;
+    const std::vector<Vec<Dim>> start = equilibrium_->before_last_step(), end = u;
+    const auto go_to = [&](double share) {
+        parallel_for(model_.particles.count(), [&](int first, int last) {
+            for (int i = first; i < last; ++i) u[i] = start[i] + share * (end[i] - start[i]);
+        });
+    };
+    double below = 0, beyond = 1;
+    while (beyond - below > break_precision) {
+        const double middle = (below + beyond) / 2;
+        go_to(middle);
+        (highest_utilisation() > 1 ? beyond : below) = middle;
+    }
+    go_to(beyond);
+    sum_forces();
 }
 
 template <int Dim>
@@ -105,7 +137,7 @@ void Simulation<Dim>::approach(double to) {
     const double from = load_time_;
     double done = 0, part = 1;
     while (done < 1 && part >= smallest_part) {
-        if (settle(done + part < 1 ? from + (done + part) * (to - from) : to)) {
+        if (settle(done + part < 1 ? from + (done + part) * (to - from) : to).found) {
             done += part;
             part = std::min(2 * part, 1 - done);
         } else {
@@ -126,7 +158,7 @@ void Simulation<Dim>::find_first_break(double from, double lower, double upper) 
     for (int trial = 0; trial < most_trials; ++trial) {
         if (upper <= 1 + break_precision || to - from <= break_precision * to) break;
         const double t = from + (to - from) * std::clamp(f_from / (f_from - f_to), 0.001, 0.999);
-        if (!settle(t)) break;
+        if (!settle(t).found) break;
         const double used = highest_utilisation();
         if (used > 1) {
             beyond = static_state();
@@ -145,9 +177,9 @@ void Simulation<Dim>::find_first_break(double from, double lower, double upper) 
     if (load_time_ != to) restore(beyond);
 }
 
-/// Equilibrium under a share of the loads of that time. False, and nothing is changed, where there is none.
+/// Equilibrium under a share of the loads of that time. Where there is none, nothing is changed.
 template <int Dim>
-bool Simulation<Dim>::settle(double load_time, double share) {
+Settled Simulation<Dim>::settle(double load_time, double share, const std::function<bool()>& enough) {
     const Particles<Dim>& particles = model_.particles;
     const int n = particles.count();
     std::vector<LoadState> loads = loads_;
@@ -170,7 +202,7 @@ bool Simulation<Dim>::settle(double load_time, double share) {
         d.moved = moved[d.particle][d.axis] = to - d.displacement;
         d.displacement = to;
     }
-    const Settled settled = equilibrium_->find(model_, *law_, applied, moved);
+    const Settled settled = equilibrium_->find(model_, *law_, applied, moved, enough);
     if (settled.found) {
         loads_ = std::move(loads);
         driven_ = std::move(driven);
@@ -178,7 +210,7 @@ bool Simulation<Dim>::settle(double load_time, double share) {
         smooth_ = smooth_ && settled.smooth;
     }
     sum_forces();
-    return settled.found;
+    return settled;
 }
 
 template <int Dim>

@@ -179,7 +179,7 @@ const Eigen::SparseMatrix<double>& Tangent<Dim>::assemble(const std::vector<std:
                     const double value = blocks[k / Dim](a, b);
                     const bool is_held = held[i][a] || held[j][b];
                     if (i == j && a == b)
-                        column[k] = is_held && !(value > 0) ? 1 : value + shift_ * springs_[i];
+                        column[k] = springs_[i] > 0 ? value + shift_ * springs_[i] : 1;
                     else
                         column[k] = is_held ? 0 : value;
                 }

@@ -29,7 +29,8 @@ class Tangent {
     void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 
     /// Lower triangle (its diagonal blocks complete) with Dim * count columns. Rows and columns of held
-    /// components are empty but for a positive diagonal. Valid until the next call.
+    /// components are empty but for their diagonal; that of a particle without bonds is 1, since it resists
+    /// nothing. Valid until the next call.
     const Eigen::SparseMatrix<double>& assemble(const std::vector<std::array<bool, 3>>& held);
 
  private:

@@ -184,8 +184,8 @@ const std::vector<KeyBlock>& scene_blocks() {
             {"load_steps", integer, "", "50", "with method static: in how many even steps max_time is reached",
              "100"},
             {"breaking", choice, "", "sequential",
-             "with method static: sequential breaks the one bond furthest beyond its limit, then finds "
-             "equilibrium again; together breaks all that are beyond theirs",
+             "with method static: sequential breaks one bond at a time, the others moving towards equilibrium "
+             "until the next is at its limit; together breaks all that are beyond theirs in equilibrium",
              R"("together")", {"sequential", "together"}},
             {"time_step", quantity, "s", "chosen", "must be below the stable limit", R"("1 ms")"},
             {"time_step_factor", quantity, "", "0.8, or 0.5 where bonds can break",

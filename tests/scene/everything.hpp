@@ -123,6 +123,7 @@ until = "peak_load + 2"
 [run]
 until = "separation + 0.5 s"
 max_time = "1 min"
+method = "explicit"
 time_step_factor = 0.4
 [view]
 size = [1280, 720]
