@@ -53,7 +53,7 @@ TEST(RampBias, IsWhatACantileverShows) {
         for (const double periods : {3.0, 10.0}) {
             const auto broken = cantilever.first_break(periods, ratio);
             const RampBias bias = ramp_bias(ratio, broken.periods);
-            EXPECT_NEAR(broken.load / limit - 1, bias.lag, 0.1 * bias.lag + 1.1 * bias.swing)
+            EXPECT_NEAR(broken.load / limit - 1, bias.lag, 0.15 * bias.lag + 1.1 * bias.swing)
                 << ratio << " " << periods;
         }
     // Undamped it is the swing alone: late at a quarter of a period, early at three.
@@ -84,7 +84,9 @@ TEST(FirstPeriod, IsThatOfTheDampingOrFoundOrNone) {
         const Built<2> built = build(parse_scene(before, "s.toml"));
         const Simulation<2> simulation(built.model, built.physics);
         const auto found = first_period(built, simulation);
-        if (found) EXPECT_NEAR(damping_ratio(simulation, *found), before[0] == 'd' ? 0.3 : 0, 1e-9);
+        if (found) {
+            EXPECT_NEAR(damping_ratio(simulation, *found), before[0] == 'd' ? 0.3 : 0, 1e-9);
+        }
         return found;
     };
     const auto plain = period(small_scene),
