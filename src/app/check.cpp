@@ -68,15 +68,15 @@ std::string load_text(const LoadSpec& spec, const Load& load) {
 /// Loads that come on too fast for a static answer.
 void add_ramp_notes(const Built<2>& built, double period, double ratio, std::vector<std::string>& notes) {
     for (const Load& load : built.physics.loads) {
-        if (load.kind == Load::Kind::velocity) continue;
         const double ramp = load.ramp.duration;
-        std::string note = fast_ramp(load.name, ramp, ramp, period, ratio);
-        if (ramp == 0 && load.kind != Load::Kind::displacement)
-            note = fmt::format(
-                "load \"{}\" is suddenly applied: the body swings to as much as twice its static state; for "
-                "a "
-                "static answer: ramp = {}",
-                load.name, format_si(slow_ramp_periods * period, "s", 2));
+        if (load.kind == Load::Kind::velocity || (load.kind == Load::Kind::displacement && ramp == 0))
+            continue;
+        const std::string note =
+            ramp > 0 ? fast_ramp(load.name, ramp, ramp, period, ratio)
+                     : fmt::format(
+                           "load \"{}\" is suddenly applied: the body swings to as much as twice its "
+                           "static state; for a static answer: ramp = {}",
+                           load.name, format_si(slow_ramp_periods * period, "s", 2));
         if (!note.empty()) notes.push_back(note);
     }
 }

@@ -164,15 +164,14 @@ void warn_of_strain(double largest_strain, std::vector<std::string>& list) {
         100 * largest_strain));
 }
 
-/// Damped by a ratio, a run is meant to be slow: what its ramps do to first break, or to the end without one.
+/// Damped by a ratio, a run is meant to be slow: what its ramps do to the load at first break.
 void warn_of_fast_ramps(const Scene& scene, const RunSummary& summary, double damping_rate,
                         std::vector<std::string>& list) {
-    if (!scene.damping || !scene.damping->damping.ratio) return;
+    if (!scene.damping || !scene.damping->damping.ratio || !summary.events.first_break) return;
     const double ratio = *scene.damping->damping.ratio, period = 4 * std::numbers::pi * ratio / damping_rate;
     for (const LoadSpec& load : scene.loads) {
         if (load.kind == Load::Kind::velocity || load.ramp == 0) continue;
-        const double rises =
-            summary.events.first_break ? std::min(load.ramp, summary.events.first_break->time) : load.ramp;
+        const double rises = std::min(load.ramp, summary.events.first_break->time);
         const std::string text = fast_ramp(load.name, load.ramp, rises, period, ratio);
         if (!text.empty()) list.push_back(text);
     }

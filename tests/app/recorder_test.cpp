@@ -30,5 +30,13 @@ TEST(EvenStates, AreEvenAndBoundedHoweverLongTheRun) {
     }
 }
 
+TEST(EvenStates, GoOnWhereTheIntervalIsLostInTheDigitsOfTheTime) {
+    EvenStates states(1, 1e-19, 20);
+    ASSERT_TRUE(states.due(1));
+    states.keep(1, 1);  // came to no end when it added intervals up
+    EXPECT_FALSE(states.due(1));
+    EXPECT_TRUE(states.due(1.001));
+}
+
 }  // namespace
 }  // namespace hibi
