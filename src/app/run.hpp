@@ -29,6 +29,11 @@ int run_command(const RunOptions& options);
 /// loaded.
 void require_separable(const Scene& scene, const Watch<2>& watch);
 
+/// What the scene ties to a moment: the end of damping, the release of a load. After every step.
+void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simulation);
+/// Is the run of that scene at its end?
+bool reached_end(const Scene& scene, const Watch<2>& watch, double time);
+
 struct RenderOptions {
     std::filesystem::path folder;
     std::optional<std::filesystem::path> scene{};  ///< of [view] and [movie]; absent: as recorded
