@@ -140,7 +140,8 @@ VerifyResult judge_flawless_bar(const std::vector<VerifyRun>& runs) {
 
 constexpr const char* statics = "At rest";
 constexpr const char* vibrations = "Vibrations";
-constexpr const char* conservation = "Conservation and failure";
+constexpr const char* conservation = "Conservation";
+constexpr const char* failure = "Failure";
 
 }  // namespace
 
@@ -184,7 +185,7 @@ const std::vector<VerifyCase>& verify_cases() {
          .quantity = "deflection over length",
          .unit = "",
          .reference = "elliptic integrals, Bisshopp and Drucker 1945; the worst of four loads",
-         .resolutions = {{2, {}, true}, {3, 1e-2, true}, {4, 1e-2}},
+         .resolutions = {{2, {}, true}, {3, {}, true}, {4, 1e-2}, {6, 1e-2, false, false}},
          .judge = judge_elastica,
          .overrides = {{{"load", "1"}}, {{"load", "2"}}, {{"load", "5"}}, {{"load", "10"}}}},
         {.id = "free_beam",
@@ -225,8 +226,9 @@ const std::vector<VerifyCase>& verify_cases() {
          .quantity = "mean energy",
          .unit = "J",
          .reference = "that of the first tenth of the run",
-         .resolutions = {{0.9, 2e-4, true}, {0.7, 2e-4}, {0.5, 5e-5, true}},
-         .judge = judge_energy},
+         .resolutions = {{0.9, 2e-4, true}, {0.7, 2e-4}, {0.5, 5e-5}},
+         .judge = judge_energy,
+         .observations = 4000},
         {.id = "spin_angular_momentum",
          .title = "Free spin, angular momentum",
          .group = conservation,
@@ -239,7 +241,7 @@ const std::vector<VerifyCase>& verify_cases() {
          .judge = judge_angular_momentum},
         {.id = "cracked_strip",
          .title = "Strip with an edge crack",
-         .group = conservation,
+         .group = failure,
          .scene = "verify/cracked_strip",
          .parameter = "columns",
          .quantity = "stress at first break",
@@ -249,7 +251,7 @@ const std::vector<VerifyCase>& verify_cases() {
          .judge = judge_cracked_strip},
         {.id = "flawless_bar",
          .title = "Flawless bar",
-         .group = conservation,
+         .group = failure,
          .scene = "verify/flawless_bar",
          .parameter = "rows",
          .quantity = "stress at first break",

@@ -36,6 +36,7 @@ struct VerifyResolution {
     double value = 0;              ///< of the case's parameter
     std::optional<double> goal{};  ///< largest error that passes, of the default variant
     bool quick = false;            ///< belongs to `--quick`
+    bool thesis = true;            ///< also with the thesis variant, which takes several times as long
 };
 
 /// A scene whose answer is known.
@@ -49,6 +50,7 @@ struct VerifyCase {
     /// Judges the runs of one resolution: one, or as many as `overrides` has entries.
     std::function<VerifyResult(const std::vector<VerifyRun>&)> judge;
     std::vector<Overrides> overrides{{}};
+    int observations = 250;  ///< moments of a run that are observed
 };
 
 /// All cases, in the order in which they are run.

@@ -27,7 +27,12 @@ Json value_or_null(const std::optional<T>& value) {
 }
 
 std::string percent(double share) {
-    return share < 1e-6 ? fmt::format("{:.1e} %", 100 * share) : fmt::format("{:.3g} %", 100 * share);
+    return share < 1e-6 ? fmt::format("{:.1e} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
+/// With the sign of what was measured less the reference.
+std::string error_text(const VerifyRow& row) {
+    return (row.measured < row.reference ? "−" : "+") + percent(row.error);
 }
 
 }  // namespace
@@ -78,7 +83,8 @@ bool begins_group(const std::vector<VerifyRow>& rows, std::size_t k) {
 
 std::string order_text(const std::vector<VerifyRow>& rows, const VerifyRow& row) {
     const std::optional<double> order = observed_order(rows, row.id, row.variant);
-    return order ? fmt::format("{:.1f}", *order) : "-";
+    if (order) return fmt::format("{:.1f}", *order);
+    return row.failure.empty() && row.error <= rounding ? "rounding" : "-";
 }
 
 const std::vector<std::string>& table_head() {
@@ -95,7 +101,7 @@ std::vector<std::string> cells_of(const std::vector<VerifyRow>& rows, std::size_
             first ? row.variant : "",
             fmt::format("{} = {:g}", row.parameter, row.resolution),
             fmt::format("{}", row.particles),
-            row.failure.empty() ? percent(row.error) : row.failure,
+            row.failure.empty() ? error_text(row) : row.failure,
             row.goal ? percent(*row.goal) : "-",
             verdict_word(row),
             first ? order_text(rows, row) : "",
@@ -223,27 +229,31 @@ namespace {
 
 std::string row_html(const std::vector<VerifyRow>& rows, std::size_t k) {
     const VerifyRow& row = rows[k];
-    const bool first = begins_group(rows, k), thesis = row.variant == "thesis";
+    const bool thesis = row.variant == "thesis";
     const std::optional<bool> pass = row.pass();
     const auto cell = [](const std::string& text, const char* kind = "") {
         return fmt::format("<td{}>{}</td>", *kind ? fmt::format(" class=\"{}\"", kind) : "", escaped(text));
     };
-    std::string text = thesis ? "<tr class=\"thesis\">" : "<tr>";
-    text += cell(!first ? "" : thesis ? row.title + ", thesis variant" : row.title, "words");
-    text += cell(fmt::format("{} = {:g}", row.parameter, row.resolution), "words");
-    text += cell(fmt::format("{}", row.particles));
-    text += row.failure.empty() ? cell(percent(row.error)) : cell(row.failure, "missed");
+    const char* begin = thesis ? "<tr class=\"thesis\">" : "<tr>";
+    std::string text;
+    if (begins_group(rows, k))
+        text += fmt::format(
+            "{}<th scope=\"rowgroup\" colspan=\"7\" class=\"words\">{}{} <span>· order {}</span></th></tr>\n",
+            begin, escaped(row.title), thesis ? ", thesis variant" : "", order_text(rows, row));
+    text += begin + cell(fmt::format("{} = {:g}", row.parameter, row.resolution), "words");
+    text += row.failure.empty() ? cell(error_text(row)) : cell(row.failure, "missed");
     text += cell(row.goal ? percent(*row.goal) : "");
     text += !pass ? cell("") : *pass ? cell("reached", "reached") : cell("missed", "missed");
-    text += cell(first ? order_text(rows, row) : "");
     text += cell(format_si(row.seconds, "s"));
+    text += cell(fmt::format("{}", row.particles));
     text += cell(row.steps > 0 ? fmt::format("{:.2f}", row.particle_steps_per_second() / 1e6) : "");
     return text + "</tr>\n";
 }
 
 std::string case_list(const std::vector<VerifyRow>& rows) {
     std::string text =
-        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Case</th><th scope=\"col\">Compared"
+        "<div class=\"scroll\"><table class=\"compared\">\n<thead><tr><th scope=\"col\">Case</th><th "
+        "scope=\"col\">Compared"
         "</th><th scope=\"col\">With</th><th scope=\"col\">Scene</th></tr></thead>\n<tbody>\n";
     for (std::size_t k = 0; k < rows.size(); ++k) {
         if (k > 0 && rows[k].id == rows[k - 1].id) continue;
@@ -274,8 +284,8 @@ std::string verification_page(const std::vector<VerifyRow>& rows, const VerifyCo
         page += "<figure class=\"chart\">" + chart_in_both_themes(chart, 100) + "</figure>\n";
     page +=
         "</section>\n<h2>All runs</h2>\n<div class=\"scroll\"><table class=\"verification\">\n<thead><tr>"
-        "<th scope=\"col\" class=\"words\">Case</th><th scope=\"col\" class=\"words\">Resolution</th>";
-    for (const char* name : {"Particles", "Error", "Goal", "", "Order", "Time", "10⁶ particle-steps/s"})
+        "<th scope=\"col\" class=\"words\">Resolution</th>";
+    for (const char* name : {"Error", "Goal", "", "Time", "Particles", "10⁶ particle-steps/s"})
         page += fmt::format("<th scope=\"col\">{}</th>", name);
     page += "</tr></thead>\n<tbody>\n";
     for (std::size_t k = 0; k < rows.size(); ++k) page += row_html(rows, k);
