@@ -39,9 +39,9 @@ TEST(ClosedForm, SlenderBeamsVibrateAsEulerSays) {
     EXPECT_NEAR(clamped_free_period(beam), unit / 3.51602, 1e-5 * unit / 3.51602);
 }
 
-/// First-order effect of shear and turning on the frequency of a free beam, by Rayleigh's quotient of the
-/// slender mode: 1 - (H/L)^2/24 (12.30 + 49.48 E / (kappa G)), the integrals of w'^2 and of w''' squared for
-/// k L = 4.73004.
+/// First-order effect of turning and shear on the period of a free beam, by Rayleigh's quotient of the slender mode:
+/// 1 + (H/L)^2/24 (49.48 + 12.30 E / (kappa G)), with L^2 times the integrals of w'^2 over w^2 and of w'''^2 over
+/// w''^2 for k L = 4.73004.
 TEST(ClosedForm, ThickBeamsVibrateSlower) {
     const double nu = 0.3, H = 0.02;
     const TimoshenkoBeam beam{.length = 1, .height = H, .density = 1200, .material = {1e6, nu}};
