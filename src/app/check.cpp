@@ -125,9 +125,13 @@ void print_report(const Scene& scene, const Built<2>& built, const Simulation<2>
     row("run", fmt::format("{}until {}",
                            scene.run.until ? "until " + moment_text(*scene.run.until) + ", at most " : "",
                            si(scene.run.max_time, "s")));
-    row("time step", fmt::format("{}, {:.2f} of the stable {}", si(simulation.time_step(), "s"),
-                                 simulation.time_step() / simulation.stable_time_step(),
-                                 si(simulation.stable_time_step(), "s")));
+    if (scene.run.statics)
+        row("load step",
+            fmt::format("{}, {} of them", si(simulation.time_step(), "s"), scene.run.statics->load_steps));
+    else
+        row("time step", fmt::format("{}, {:.2f} of the stable {}", si(simulation.time_step(), "s"),
+                                     simulation.time_step() / simulation.stable_time_step(),
+                                     si(simulation.stable_time_step(), "s")));
     int number = 0;
     for (const std::string& stage : simulation.stage_names()) {
         ++number;

@@ -22,6 +22,7 @@
 #include "app/verify.hpp"
 #include "base/parallel.hpp"
 #include "film/encoder.hpp"
+#include "record/provenance.hpp"
 #include "scene/read.hpp"
 #include "scene/schema.hpp"
 
@@ -89,7 +90,8 @@ void add_drawing(Command& command, RendererOptions& renderer) {
 void add_formats(Command& command, std::vector<std::string>& formats) {
     command
         .add_option("--formats", formats,
-                    "films to make: mp4, gif, webm, apng, webp (default: [movie] formats)")
+                    "films to make: mp4, gif, webm, apng, webp (default: [movie] formats); films of other "
+                    "formats stay")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(film_formats()))
@@ -101,7 +103,8 @@ void add_movie(Command& command, DrawOptions& draw) {
     command.add_flag_callback(
         "--no-movie", [&draw] { draw.movie = draw.frames = false; },
         "neither frames nor film: poster, figures and report only");
-    command.add_flag("!--no-report", draw.report, "neither figures nor report");
+    command.add_flag_callback(
+        "--no-report", [&draw] { draw.report = false; }, "neither figures nor report");
 }
 
 void add_threads(Command& command) {
@@ -120,7 +123,8 @@ void add_run(CLI::App& app, int& status) {
     add_scene(*run, o->scene, o->overrides);
     run->add_option("-o,--output", o->folder, "folder of the run (default: out/<scene name>)");
     add_movie(*run, o->draw);
-    run->add_flag("!--no-pictures", o->pictures, "simulate and record only");
+    run->add_flag_callback(
+        "--no-pictures", [o] { o->pictures = false; }, "simulate and record only");
     run->add_flag("--force", o->force, "overwrite the folder of another scene's run");
     run->add_flag("--json", o->json, "print run.json instead of the table");
     add_drawing(*run, o->draw.renderer);
@@ -252,8 +256,10 @@ void add_converge(CLI::App& app, int& status) {
     const auto o = options_of<ConvergeOptions>();
     converge->add_option("SCENE", o->scene, "scene file (TOML)")->required();
     add_study(*converge, o->grid, o->study, "folder of the runs (default: out/<scene name>_converge)");
-    converge->add_flag("!--one", o->both, "only with the scene's own criterion of failure, not with both");
-    converge->add_flag("!--no-movie", o->film, "no film side by side");
+    converge->add_flag_callback(
+        "--one", [o] { o->both = false; }, "only with the scene's own criterion of failure, not with both");
+    converge->add_flag_callback(
+        "--no-movie", [o] { o->film = false; }, "no film side by side");
     converge->add_flag("--json", o->json, "print converge.json instead of the table");
     add_drawing(*converge, o->renderer);
     converge->callback([o, &status] { status = converge_command(*o); });
@@ -292,7 +298,10 @@ void add_preview(CLI::App& app, int& status) {
     preview->add_option("-o,--output", o->png, "PNG to write")->capture_default_str();
     add_drawing(*preview, o->renderer);
     preview->callback([o, &status] {
-        draw_setup(read_scene(o->scene, o->overrides), o->png, o->renderer);
+        std::vector<std::string> words{"hibi", "preview", o->scene.string()};
+        for (const auto& [name, value] : o->overrides) words.insert(words.end(), {"-p", name + "=" + value});
+        words.insert(words.end(), {"-o", o->png.string()});
+        draw_setup(read_scene(o->scene, o->overrides), o->png, o->renderer, shell_command(words));
         fmt::print("{}\n", o->png.string());
         status = 0;
     });

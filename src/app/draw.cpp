@@ -15,8 +15,8 @@ namespace hibi {
 
 namespace {
 
-PngText png_text(const RunReader& run, double time) {
-    PngText text = to_texts(provenance_of(run.summary()));
+PngText png_text(const Provenance& provenance, double time) {
+    PngText text = to_texts(provenance);
     text["Software"] = "hibi " HIBI_VERSION;  // also where the run was recorded by another one, or killed
     text["Time"] = fmt::format("{:.9g} s", time);
     return text;
@@ -40,22 +40,22 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
     const RunReader run(folder);
     RunDrawing drawing(scene, run, film_style(scene, run), options.renderer);
     const FilmPlan& plan = drawing.plan();
-    remove_pictures(folder);
+    remove_pictures(folder, options.formats.empty());
+    const Provenance provenance = followed_by(provenance_of(run.summary()), options.command);
 
     const int frames = options.movie || options.frames ? static_cast<int>(plan.time.size()) : 0;
     if (options.frames) std::filesystem::create_directories(folder / "frames");
-    FrameWriter writer(
-        folder, options.frames ? std::max(1, options.workers) : 0, films(scene, options),
-        {.width = scene.view.width,
-         .height = scene.view.height,
-         .fps = scene.movie.fps,
-         .metadata = {{"title", scene.title}, {"comment", to_comment(provenance_of(run.summary()))}},
-         .transparent = scene.view.transparent,
-         .background = theme(scene.view.theme).background,
-         .gif_limit = scene.movie.gif_limit});
+    FrameWriter writer(folder, options.frames ? std::max(1, options.workers) : 0, films(scene, options),
+                       {.width = scene.view.width,
+                        .height = scene.view.height,
+                        .fps = scene.movie.fps,
+                        .metadata = {{"title", scene.title}, {"comment", to_comment(provenance)}},
+                        .transparent = scene.view.transparent,
+                        .background = theme(scene.view.theme).background,
+                        .gif_limit = scene.movie.gif_limit});
     const auto write_poster = [&](const Image& image) {
         write_png(folder / "poster.png", image,
-                  {.text = png_text(run, plan.time[plan.poster]), .small = true});
+                  {.text = png_text(provenance, plan.time[plan.poster]), .small = true});
     };
     for (int k = 0; k < frames; ++k) {
         Image image = writer.take();
@@ -66,7 +66,7 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
         info.time = plan.time[k];
         if (plan.event[k]) info.event = to_string(*plan.event[k]);
         for (const EventName name : plan.events[k]) info.events.push_back(to_string(name));
-        writer.add(std::move(image), std::move(info), png_text(run, plan.time[k]));
+        writer.add(std::move(image), std::move(info), png_text(provenance, plan.time[k]));
         if (options.progress) options.progress(k + 1, frames);
     }
     if (frames == 0) {

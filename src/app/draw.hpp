@@ -17,6 +17,7 @@ struct DrawOptions {
     bool frames = true;                  ///< keep the PNG frames
     bool report = true;                  ///< figures and report; not by draw_run itself
     int workers = 2;  ///< threads that hash and write PNG frames; the pictures do not depend on it
+    std::vector<std::string> command{};  ///< words of the command that draws, where it is not the run's own
     std::function<void(int done, int total)> progress{};
 };
 
@@ -44,7 +45,9 @@ struct PreviewOptions {
     RendererOptions renderer{};
 };
 
-/// The body as it stands before the run, with supports, loads at full size and notches.
-void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& renderer);
+/// The body as it stands before the run, with supports, loads at full size and notches. `command` goes into
+/// the picture.
+void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& renderer,
+                const std::string& command = {});
 
 }  // namespace hibi

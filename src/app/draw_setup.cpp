@@ -11,10 +11,13 @@
 #include "image/background.hpp"
 #include "image/overlay.hpp"
 #include "image/png.hpp"
+#include "record/provenance.hpp"
+#include "scene/read.hpp"
 
 namespace hibi {
 
-void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& options) {
+void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& options,
+                const std::string& command) {
     if (png.extension() != ".png" || std::filesystem::is_directory(png))
         throw std::runtime_error(
             fmt::format("{}: is no name of a PNG file; write for example -o setup.png", png.string()));
@@ -63,7 +66,7 @@ void draw_setup(const Scene& scene, const std::filesystem::path& png, const Rend
         overlay.draw(on, over);
     });
     write_png(png, image,
-              {.text = {{"Title", scene.title}, {"Software", "hibi " HIBI_VERSION}}, .small = true});
+              {.text = to_texts({scene.title, HIBI_VERSION, scene_hash(scene), "", command}), .small = true});
 }
 
 }  // namespace hibi

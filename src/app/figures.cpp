@@ -46,8 +46,10 @@ Image strip_image(const Scene& scene, const RunReader& run, const FigureStyle& s
 /// All figures of a run in one style, as NAME + suffix. Returns the files written.
 std::vector<fs::path> write_figures(const Scene& scene, const RunReader& run, const FigureStyle& style,
                                     const fs::path& folder, const std::string& suffix,
-                                    const RendererOptions& renderer) {
-    const PngOptions png{.text = to_texts(provenance_of(run.summary())), .small = true, .dpi = style.dpi};
+                                    const RendererOptions& renderer,
+                                    const std::vector<std::string>& command = {}) {
+    const Provenance provenance = followed_by(provenance_of(run.summary()), command);
+    const PngOptions png{.text = to_texts(provenance), .small = true, .dpi = style.dpi};
     std::vector<fs::path> files;
     const auto write = [&](const char* name, const Image& image) {
         files.push_back(folder / (name + suffix + ".png"));
@@ -96,8 +98,12 @@ int figures_command(const FiguresOptions& options) {
     for (const std::string& theme : options.themes.empty() ? own : options.themes)
         for (const double width : options.widths) {
             const FigureStyle style{.theme = theme, .width_mm = width};
+            const std::vector<std::string> command{
+                "hibi",         "figures", options.folder.string(),    "--theme",
+                theme,          "--width", fmt::format("{:g}", width), "-o",
+                output.string()};
             for (const fs::path& file :
-                 write_figures(scene, run, style, output, suffix_of(style), options.renderer))
+                 write_figures(scene, run, style, output, suffix_of(style), options.renderer, command))
                 fmt::print("{}\n", file.string());
         }
     return 0;
@@ -109,8 +115,19 @@ int strip_command(const StripOptions& options) {
     const FigureStyle style{.theme = options.theme.empty() ? scene.view.theme : options.theme,
                             .width_mm = options.width_mm};
     const fs::path file = options.output.value_or(options.folder / "strip.png");
+    std::vector<std::string> command{"hibi",
+                                     "strip",
+                                     options.folder.string(),
+                                     "--theme",
+                                     style.theme,
+                                     "--width",
+                                     fmt::format("{:g}", style.width_mm)};
+    if (options.columns > 0) command.insert(command.end(), {"--columns", std::to_string(options.columns)});
+    command.insert(command.end(), {"-o", file.string()});
     write_png(file, strip_image(scene, run, style, options.columns, options.renderer),
-              {.text = to_texts(provenance_of(run.summary())), .small = true, .dpi = style.dpi});
+              {.text = to_texts(followed_by(provenance_of(run.summary()), command)),
+               .small = true,
+               .dpi = style.dpi});
     fmt::print("{}\n", file.string());
     return 0;
 }

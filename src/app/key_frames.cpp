@@ -75,6 +75,14 @@ DrawingStyle history_style(const Scene& scene, const RunReader& run, const std::
     return style;
 }
 
+/// An event knows its load; between the rows of the history a ramp's end would be cut.
+double load_of(const RunReader& run, double time) {
+    const Events& events = run.summary().events;
+    for (const auto& event : {events.first_break, events.peak_load, events.separation})
+        if (event && event->time == time) return event->load;
+    return load_at(run.history(), time);
+}
+
 }  // namespace
 
 std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
@@ -95,7 +103,7 @@ std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
     for (KeyMoment& m : moments) {
         m.detail = "t = " + format_si(m.time, "s", 3, m.time == 0);
         if (!run.topology().loads.empty())
-            m.detail += ", " + format_si(load_at(run.history(), m.time), "N", 3, m.time == 0);
+            m.detail += ", " + format_si(load_of(run, m.time), "N", 3, m.time == 0);
     }
     return moments;
 }

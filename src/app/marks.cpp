@@ -31,9 +31,13 @@ std::vector<std::vector<Vec3>> nearest_directions(const Topology& topology) {
 std::vector<int> foremost(const Topology& topology, const std::vector<int>& particles, const Vec3& towards) {
     const Vec3 across(-towards.y(), towards.x(), 0);
     std::map<long, int> slices;
+    // Counted from a particle: centres lie half way between the multiples of the spacing, where rounding
+    // decides.
+    const Vec3 origin = topology.reference_position[particles.front()];
     for (const int i : particles) {
         const Vec3& X = topology.reference_position[i];
-        const auto [slot, is_new] = slices.try_emplace(std::lround(X.dot(across) / topology.spacing[i]), i);
+        const auto [slot, is_new] =
+            slices.try_emplace(std::lround((X - origin).dot(across) / topology.spacing[i]), i);
         if (!is_new && X.dot(towards) > topology.reference_position[slot->second].dot(towards))
             slot->second = i;
     }

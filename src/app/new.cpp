@@ -30,7 +30,7 @@ spacing = "0.2 m"                  # smaller: more particles, a finer crack, a l
 density        = "2300 kg/m^3"
 youngs_modulus = "30 GPa"
 poissons_ratio = 0.2
-break_strain   = 0.0005            # a bond breaks when it is stretched or shortened by more
+break_strain   = 0.0005            # a bond breaks when it is stretched or shortened by more: strength / E
 
 [[body]]
 name     = "beam"
@@ -51,6 +51,7 @@ name  = "tip"
 where = "x > 8 m - spacing"
 force = ["0 N", "-4 MN"]           # total, in equal shares
 ramp  = "2 s"                      # grows evenly from nothing
+until = "separation"               # then what is torn off flies freely
 
 [damping]
 ratio = 0.3                        # of the first vibration

@@ -35,7 +35,9 @@ Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>
       watch_(watch),
       writer_(writer),
       most_(2 * std::max<std::size_t>(25, scene.movie.frames() / 2)),  // even; about one state per frame
-      even_(0, first_state_steps * simulation.time_step(), most_) {
+      tick_(simulation.physics().statics ? simulation.physics().statics->pause() / first_state_steps
+                                         : simulation.time_step()),
+      even_(0, first_state_steps * tick_, most_) {
     for (const SlowSpec& slow : scene.movie.slow) {
         if (slow.around.event && *slow.around.event != EventName::start) continue;
         const double begin = slow.around.offset - slow.span / 5;
@@ -54,7 +56,8 @@ void Recorder::look() {
     const Events& events = watch_.events();
     if (!watch_.just_broken().empty()) writer_.breaks(watch_.just_broken());
 
-    const double interval = std::max(first_row_steps * simulation_.time_step(), time / rows_per_time);
+    const double interval =
+        std::max(first_row_steps * tick_, simulation_.physics().statics ? 0 : time / rows_per_time);
     const bool event = (events.first_break && events.first_break->time == time) ||
                        (events.separation && events.separation->time == time);
     if (event || time - last_row_ >= (watch_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
@@ -72,7 +75,7 @@ void Recorder::look() {
     }
     if (!failure_) {
         write_ring();
-        failure_.emplace(time, 2 * simulation_.time_step(), most_);
+        failure_.emplace(time, 2 * tick_, most_);
         failure_end_ = std::numeric_limits<double>::infinity();
     }
     if (events.separation && !separation_kept_) {

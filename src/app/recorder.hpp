@@ -57,6 +57,9 @@ class Recorder {
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
     double last_row_ = 0, imbalance_ = 0;
     std::size_t most_ = 0;
+    /// What rows and states are counted in: the time step (s). A static run has few and dear steps, of which
+    /// none should be missed: a part of the shortest.
+    double tick_ = 0;
     EvenStates even_;
     std::optional<EvenStates> failure_;  ///< from first break on
     double failure_end_ = 0;

@@ -1,6 +1,7 @@
 #include "app/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -64,6 +65,22 @@ void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
                     folder.string(), other));
 }
 
+/// A number that lost its unit on the command line is taken as SI, which may be far from what was meant.
+void note_plain_numbers(const RunOptions& options) {
+    for (const auto& [name, text] : options.overrides) {
+        if (text == "0" || text.find_first_not_of("0123456789+-.eE") != std::string::npos) continue;
+        try {
+            const Scene own = read_scene(options.scene, {});
+            const auto before =
+                std::ranges::find_if(own.params, [&](const Parameter& p) { return p.name == name; });
+            if (before != own.params.end() && !before->unit.empty())
+                fmt::print(stderr, "{}: note: {} = {} has no unit and is taken in SI; the scene says {}\n",
+                           options.scene.string(), name, text, before->text);
+        } catch (const SceneErrors&) {  // it needs the override
+        }
+    }
+}
+
 /// The command that gives this run again. What does not change a result is left out.
 std::string command_of(const RunOptions& options, const fs::path& folder) {
     std::vector<std::string> words{"hibi", "run", options.scene.string()};
@@ -80,6 +97,11 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
         simulation.step();
         watch.look();
         if (simulation.failure()) return simulation.failure()->message;
+        if (simulation.collapse()) {
+            recorder.look();
+            // After a break a collapse is how a fracture may end.
+            return watch.events().first_break ? std::nullopt : simulation.collapse();
+        }
         pull_triggers(scene, watch.events(), simulation);
         recorder.look();
         if (!std::isfinite(recorder.imbalance()) ||
@@ -87,7 +109,7 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
             return fmt::format("step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %); {}",
                                simulation.steps(), simulation.time(), 100 * recorder.imbalance(),
                                simulation.likely_cause());
-        if (simulation.steps() % 64 == 0)
+        if (simulation.steps() % 64 == 0 || scene.run.statics)
             progress.at(simulation.time() / scene.run.max_time, static_cast<double>(simulation.steps()),
                         fmt::format("t = {}, {} bonds broken", format_si(simulation.time(), "s"),
                                     simulation.broken()));
@@ -95,8 +117,15 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
     return {};
 }
 
-std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary) {
+std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simulation,
+                                  const RunSummary& summary) {
     std::vector<std::string> list;
+    if (simulation.collapse()) list.push_back(*simulation.collapse());
+    if (simulation.can_break() && !summary.events.first_break)
+        list.push_back(
+            fmt::format("nothing broke: in the end the most strained bond is at {:.2g} % of its "
+                        "limit; raise the load, or max_time",
+                        100 * simulation.closest_to_breaking()));
     const Events& events = summary.events;
     if (scene.run.until && scene.run.until->event && !summary.stopped) {
         const EventName event = *scene.run.until->event;
@@ -109,9 +138,9 @@ std::vector<std::string> warnings(const Scene& scene, const RunSummary& summary)
     }
     if (!summary.trusted)
         list.push_back(
-            fmt::format("the energy balance is off by {:.2g} %: do not trust this run; a smaller "
-                        "time_step_factor may help",
-                        100 * summary.worst_imbalance));
+            fmt::format("the energy balance is off by {:.2g} %: do not trust this run; {} may help",
+                        100 * summary.worst_imbalance,
+                        scene.run.statics ? "more load_steps" : "a smaller time_step_factor"));
     return list;
 }
 
@@ -208,6 +237,7 @@ int run_command(const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     const fs::path folder = options.folder.value_or(fs::path("out") / options.scene.stem());
     refuse_other_scene(folder, options);
+    note_plain_numbers(options);
     Built<2> built = build(scene);
     const Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
@@ -234,8 +264,8 @@ int run_command(const RunOptions& options) {
     summary.seconds["setup"] = total.seconds();
 
     if (!options.quiet)
-        fmt::print(stderr, "{}: {} particles, {} bonds, time step {}\n", scene.title, summary.particles,
-                   summary.bonds, format_si(summary.time_step, "s"));
+        fmt::print(stderr, "{}: {} particles, {} bonds, {} step {}\n", scene.title, summary.particles,
+                   summary.bonds, scene.run.statics ? "load" : "time", format_si(summary.time_step, "s"));
     const Stopwatch solving;
     Recorder recorder(scene, simulation, watch, writer);
     summary.stopped = solve(scene, simulation, watch, recorder, options.quiet);
@@ -248,7 +278,7 @@ int run_command(const RunOptions& options) {
     summary.worst_imbalance = watch.worst_imbalance();
     summary.imbalance_at_first_break = watch.imbalance_before_first_break();
     summary.trusted = !summary.stopped && summary.worst_imbalance <= trusted_imbalance;
-    if (!summary.stopped) summary.warnings = warnings(scene, summary);
+    if (!summary.stopped) summary.warnings = warnings(scene, simulation, summary);
     summary.seconds["total"] = total.seconds();
     writer.finish(summary);
     if (summary.stopped) {
@@ -279,7 +309,15 @@ int render_command(const RenderOptions& options) {
     const Scene scene = read_scene(options.scene.value_or(folder / "scene.toml"));
     const bool summarised = fs::exists(folder / "run.json");  // a killed run may lack it
     RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
-    draw_with_progress(scene, folder, options.draw, options.quiet, summary);
+    DrawOptions draw = options.draw;
+    if (options.scene || !draw.formats.empty()) {
+        draw.command = {"hibi", "render", folder.string()};
+        if (options.scene) draw.command.insert(draw.command.end(), {"--scene", options.scene->string()});
+        if (!draw.formats.empty())
+            draw.command.insert(draw.command.end(),
+                                {"--formats", fmt::format("{}", fmt::join(draw.formats, ","))});
+    }
+    draw_with_progress(scene, folder, draw, options.quiet, summary);
     if (summarised) write_summary(folder, summary);
     fmt::print("{}\n", made(folder, true, options.draw));
     return 0;

@@ -140,11 +140,13 @@ Camera2 RunDrawing::camera() {
     if (const auto& w = view.window) return Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], plot);
     std::vector<Reserved> reserved;
     const int last = last_counting_state(run_);
+    const std::vector<double> loose = loose_since(run_);
     constexpr int samples = 16;
     for (int k = 0; k <= samples && !marks_.empty(); ++k) {
         const double time = run_.states()[last * k / samples].time;
         source_.at(time);
         for (const Mark& mark : marks_) {
+            if (std::ranges::any_of(mark.particles, [&](int i) { return loose[i] <= time; })) continue;
             const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
             for (const Reserved& r : reserve(mark, source_.x(), source_.y(), size, view))
                 reserved.push_back(r);

@@ -27,6 +27,9 @@ double rounded_up(double v) {
     return v;
 }
 
+/// Pieces of less than this share of the particles fly off without the picture following them.
+constexpr double least_piece = 0.02;
+
 }  // namespace
 
 int last_counting_state(const RunReader& run) {
@@ -38,6 +41,45 @@ int last_counting_state(const RunReader& run) {
     return last;
 }
 
+std::vector<double> loose_since(const RunReader& run) {
+    // From the end backwards, every broken bond joins two pieces again.
+    const Topology& topology = run.topology();
+    const int count = static_cast<int>(topology.spacing.size());
+    const double least = least_piece * count;
+    constexpr double never = std::numeric_limits<double>::infinity(), small_at_the_end = -1;
+    std::vector<double> loose(count, never);
+    std::vector<int> piece(count);
+    std::vector<std::vector<int>> members(count);
+    for (int i = 0; i < count; ++i) piece[i] = i, members[i] = {i};
+    const auto small = [&](int p) { return static_cast<double>(members[p].size()) < least; };
+    const auto join = [&](int bond, double time) {
+        int p = piece[topology.first[bond]], q = piece[topology.second[bond]];
+        if (p == q) return;
+        if (members[p].size() < members[q].size()) std::swap(p, q);
+        const std::size_t before = members[p].size();
+        const bool was_small = small(p), other_small = small(q);
+        for (const int i : members[q]) piece[i] = p;
+        members[p].insert(members[p].end(), members[q].begin(), members[q].end());
+        members[q].clear();
+        if (small(p)) return;
+        for (std::size_t k = was_small ? 0 : before; k < (other_small ? members[p].size() : before); ++k)
+            loose[members[p][k]] = time;
+    };
+    std::vector<int> broken;
+    for (int b = 0; b < static_cast<int>(topology.first.size()); ++b) {
+        if (run.broken_at()[b] == never)
+            join(b, never);
+        else
+            broken.push_back(b);
+    }
+    for (int i = 0; i < count; ++i)
+        if (small(piece[i])) loose[i] = small_at_the_end;
+    std::ranges::sort(broken, std::greater{}, [&](int b) { return run.broken_at()[b]; });
+    for (const int b : broken) join(b, run.broken_at()[b]);
+    std::ranges::replace(loose, small_at_the_end, never);  // it was small before the run, too
+    return loose;
+}
+
 std::array<double, 4> body_window(const RunReader& run, const View& view) {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::array<double, 4> box{far, far, -far, -far};
@@ -46,9 +88,13 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
     // Reading every state takes longer than drawing it: where their extents are no help, some are enough.
     constexpr int most_read = 48;
     const int last = last_counting_state(run);
-    const int stride = view.magnify == 1 ? 1 : std::max(1, last / most_read);
+    const double end = run.states()[last].time;
+    const std::vector<double> loose = loose_since(run);
+    const bool extents_do =
+        view.magnify == 1 && std::ranges::none_of(loose, [&](double since) { return since <= end; });
+    const int stride = extents_do ? 1 : std::max(1, last / most_read);
     for (int s = last; view.magnify != 0 && s >= 0; s -= stride) {
-        if (view.magnify == 1) {
+        if (extents_do) {
             const RunReader::Extent extent = run.extent(s);
             include(box, extent.low.x(), extent.low.y());
             include(box, extent.high.x(), extent.high.y());
@@ -56,6 +102,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
         }
         const Snapshot snapshot = run.read(s);
         for (int i = 0; i < snapshot.count(); ++i) {
+            if (snapshot.time >= loose[i]) continue;
             const Vec3 p = topology.reference_position[i] + view.magnify * snapshot.displacement[i];
             include(box, p.x(), p.y());
         }

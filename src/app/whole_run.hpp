@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <string>
+#include <vector>
 
 #include "image/view.hpp"
 #include "record/run_folder.hpp"
@@ -11,7 +12,12 @@ namespace hibi {
 /// last.
 int last_counting_state(const RunReader& run);
 
-/// Box around all particles in all states that count (m), discs included: x0, y0, x1, y1.
+/// When each particle comes loose: from then on it belongs to a piece of less than a fiftieth of all
+/// particles (s); infinite: never, or from the start.
+std::vector<double> loose_since(const RunReader& run);
+
+/// Box around the particles in all states that count (m), discs included, but for those that have come loose:
+/// x0, y0, x1, y1.
 std::array<double, 4> body_window(const RunReader& run, const View& view);
 
 /// Range of the coloured field over all states that count, from the finite values, ends rounded outward.

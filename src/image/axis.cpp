@@ -50,7 +50,7 @@ Ticks round_ticks(double low, double high, int most) {
     if (!(high > low)) return {{low}, 0};
     // Steps rising from one that gives far too many ticks. The first plain one (1, 2, 5) that gives few
     // enough is taken, unless one of the next makes ticks of both ends.
-    double step = 0;
+    double step = 0, several = 0;  // the first one that gives two ticks or more
     const auto ticks_with = [&](double s) {
         return std::floor(high / s + 1e-9) - std::ceil(low / s - 1e-9) + 1;
     };
@@ -62,9 +62,11 @@ Ticks round_ticks(double low, double high, int most) {
         if (ticks_with(candidate) > most) continue;
         const bool plain = lead != 2.5 && lead != 4;
         const bool ends = whole(low / candidate) && whole(high / candidate);
+        if (several == 0 && ticks_with(candidate) >= 2) several = candidate;
         if (ends || (plain && step == 0)) step = candidate;
         if (ends || (step > 0 && candidate > 2.6 * step)) break;
     }
+    if (several > 0 && ticks_with(step) < 2) step = several;  // a lone tick is no scale
     for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
         ticks.at.push_back(k * step);
     ticks.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));

@@ -37,7 +37,10 @@ void draw_colours(cairo_t* cairo, const ColourBar& bar, const PixelRect& r, cons
         const double x = left + (right - left) * (tick - low) / (high > low ? high - low : 1);
         set_colour(cairo, colours.line);
         stroke_line(cairo, x, foot, x, foot + 0.35 * text);
-        type.draw(cairo, decimal(tick, ticks.decimals), x, foot + 1.4 * text, style);
+        const std::string number = decimal(tick, ticks.decimals);
+        // The margin may be narrower than half a number.
+        const double half = type.width(number, style) / 2;
+        type.draw(cairo, number, std::max(x, half), foot + 1.4 * text, style);
     }
 }
 

@@ -123,7 +123,7 @@ void Watch<Dim>::look() {
 
 template <int Dim>
 bool Watch<Dim>::settled() const {
-    return simulation_.steps() >= settling_steps || events_.first_break;
+    return simulation_.physics().statics || simulation_.steps() >= settling_steps || events_.first_break;
 }
 
 template <int Dim>

@@ -38,7 +38,8 @@ class Watch {
     /// after the first has: an elastic wave is no peak.
     void look();
     /// Does the energy balance say something yet? In its first 100 steps any run is off by about 1 / steps^2
-    /// of next to no energy, the start of the trapezoidal sum over a ramp; unless bonds break already.
+    /// of next to no energy, the start of the trapezoidal sum over a ramp; unless bonds break already. A
+    /// static run has no such start.
     bool settled() const;
 
     const Events& events() const { return events_; }

@@ -58,7 +58,8 @@ template <int Dim>
 bool inside(const Shape<Dim>& shape, const Vec<Dim>& X) {
     return std::visit(Overloaded{
                           [&](const Box<Dim>& s) {
-                              return (X.array() >= s.low.array()).all() && (X.array() <= s.high.array()).all();
+                              return (X.array() >= s.low.array()).all() &&
+                                     (X.array() <= s.high.array()).all();
                           },
                           [&](const Disc<Dim>& s) { return (X - s.centre).norm() <= s.radius; },
                           [&](const Ring<Dim>& s) {
@@ -109,9 +110,23 @@ double measure(const Shape<Dim>& shape) {
                           [](const Ring<Dim>& s) { return pi * (s.outer * s.outer - s.inner * s.inner); },
                           [](const Polygon& s) { return std::abs(twice_area(s.corners)) / 2; },
                           [](const Difference<Dim>& s) {
-                              double rest = measure(s.parts.front());
-                              for (std::size_t k = 1; k < s.parts.size(); ++k) rest -= measure(s.parts[k]);
-                              return std::max(rest, 0.0);
+                              // Removed shapes may reach beyond the first, and into each other: the share
+                              // of a fine lattice that remains.
+                              constexpr int fine = 1000;
+                              const Shape<Dim> all{s};
+                              const Shape<Dim>& first = s.parts.front();
+                              const Box<Dim> box = bounding_box(first);
+                              const Vec<Dim> cell = (box.high - box.low) / fine;
+                              long whole = 0, rest = 0;
+                              for (int row = 0; row < fine; ++row)
+                                  for (int column = 0; column < fine; ++column) {
+                                      const Vec<Dim> X =
+                                          box.low + cell.cwiseProduct(Vec<Dim>(column + 0.5, row + 0.5));
+                                      if (!inside(first, X)) continue;
+                                      ++whole;
+                                      rest += inside(all, X);
+                                  }
+                              return whole > 0 ? measure(first) * double(rest) / double(whole) : 0.0;
                           },
                       },
                       shape.form);

@@ -61,6 +61,18 @@ struct Damping {
     std::optional<double> ratio{};  ///< of the first mode: c = 2 ratio omega_1
 };
 
+/// Equilibrium from load step to load step, in place of motion. Time is only what ramps and the film go by.
+struct Statics {
+    double duration = 1;     ///< in which all load steps are made (s)
+    int load_steps = 50;     ///< of equal length
+    bool sequential = true;  ///< only the bond furthest beyond its limit breaks, then the others are judged anew
+
+    double step() const { return duration / load_steps; }
+    /// Time that passes from one break to the next while the load stands still (s): a film shows them one after
+    /// the other.
+    double pause() const { return step() / 500; }
+};
+
 /// Everything that acts on a model. What is absent costs nothing.
 struct Physics {
     Elasticity elasticity = Elasticity::moment_matched;
@@ -68,6 +80,7 @@ struct Physics {
     std::vector<Load> loads{};
     std::optional<Gravity> gravity{};
     std::optional<Damping> damping{};
+    std::optional<Statics> statics{};          ///< absent: explicit steps in time
     std::optional<double> time_step{};         ///< (s); chosen when absent
     std::optional<double> time_step_factor{};  ///< of the stable limit; 0.8, or 0.5 where bonds can break
 };

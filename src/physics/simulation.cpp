@@ -29,13 +29,7 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
     if (physics_.elasticity == Elasticity::thesis) model_.spin = make_spin(model_);
     law_ = make_elastic_law<Dim>(model_, physics_.elasticity);
 
-    held_.assign(n, {});
-    for (const Hold& hold : physics_.holds)
-        for (const int i : hold.particles)
-            for (int a = 0; a < Dim; ++a) held_[i][a] = held_[i][a] || hold.axes[a];
-    for (const Load& load : physics_.loads)
-        for (const int i : load.particles)
-            for (int a = 0; a < Dim; ++a) held_[i][a] = held_[i][a] || load.driven[a];
+    held_ = held_components<Dim>(n, physics_);
     inverse_mass_.resize(n);
     for (int i = 0; i < n; ++i) {
         for (int a = 0; a < Dim; ++a) {
@@ -46,23 +40,12 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
             inverse_inertia_.push_back(inverse_mass_[i].isZero(0) ? 0 : 1 / model_.spin->inertia[i]);
     }
 
-    const std::vector<Vec<Dim>> velocity = particles.velocity;  // the estimate leaves the model at rest
-    stable_time_step_ = 2 / highest_frequency(model_, *law_);
-    particles.velocity = velocity;
     const bool can_break = std::any_of(model_.materials.begin(), model_.materials.end(),
                                        [](const Material& m) { return m.can_break(); });
-    // The energy balance through breaks needs the smaller step.
-    time_step_ = physics_.time_step.value_or(physics_.time_step_factor.value_or(can_break ? 0.5 : 0.8) *
-                                             stable_time_step_);
-    if (!(time_step_ <= stable_time_step_))
-        throw std::runtime_error(
-            fmt::format("run.time_step: {:.3g} s is above the stable {:.3g} s; leave it out to "
-                        "have it chosen",
-                        time_step_, stable_time_step_));
-    if (physics_.damping)
-        damping_rate_ = physics_.damping->rate
-                            ? *physics_.damping->rate
-                            : 2 * *physics_.damping->ratio * first_frequency(model_, held_);
+    if (physics_.statics)
+        time_step_ = physics_.statics->step();
+    else
+        choose_time_step(can_break);
     if (can_break) {
         limits_ = break_limits(model_, break_strains(model_, physics_));
         law_->watch(limits_);
@@ -84,6 +67,10 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
             }
         }
     }
+    if (physics_.statics) {
+        start_statics();
+        return;
+    }
     if (model_.spin) turn_with_neighbours();
     update_loads(0);
     sum_forces();
@@ -93,6 +80,27 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
             kinetic_ += model_.spin->inertia[i] * model_.spin->velocity[i] * model_.spin->velocity[i] / 2;
     }
     work_ = kinetic_ + law_->energy(model_);  // what is there at the start was put in
+}
+
+/// And with it the rate of damping.
+template <int Dim>
+void Simulation<Dim>::choose_time_step(bool can_break) {
+    Particles<Dim>& particles = model_.particles;
+    const std::vector<Vec<Dim>> velocity = particles.velocity;  // the estimate leaves the model at rest
+    stable_time_step_ = 2 / highest_frequency(model_, *law_);
+    particles.velocity = velocity;
+    // The energy balance through breaks needs the smaller step.
+    time_step_ = physics_.time_step.value_or(physics_.time_step_factor.value_or(can_break ? 0.5 : 0.8) *
+                                             stable_time_step_);
+    if (!(time_step_ <= stable_time_step_))
+        throw std::runtime_error(
+            fmt::format("run.time_step: {:.3g} s is above the stable {:.3g} s; leave it out to "
+                        "have it chosen",
+                        time_step_, stable_time_step_));
+    if (physics_.damping)
+        damping_rate_ = physics_.damping->rate
+                            ? *physics_.damping->rate
+                            : 2 * *physics_.damping->ratio * first_frequency(model_, held_);
 }
 
 /// Thesis variant: the particles of a body that spins at the start spin with it: each takes the rotation of
@@ -119,10 +127,19 @@ template <int Dim>
 void Simulation<Dim>::step() {
     just_broken_.clear();
     breaking_strains_.clear();
+    ++steps_;
+    if (physics_.statics)
+        static_step();
+    else
+        explicit_step();
+}
+
+template <int Dim>
+void Simulation<Dim>::explicit_step() {
     for (Driven& d : driven_) d.old_force = model_.particles.force[d.particle][d.axis];
     kick();
     drift();
-    ++steps_;
+    time_ = static_cast<double>(steps_) * time_step_;
     prescribe_motion();
     update_loads(time_step_);
     sum_forces();
@@ -221,22 +238,27 @@ void Simulation<Dim>::finish_motion() {
     }
 }
 
+/// Of the k-th particle of a load that is no prescribed motion (N).
+template <int Dim>
+Vec<Dim> Simulation<Dim>::applied_force(const Load& load, std::size_t k, double time) const {
+    const Vec3 X = place(load.particles[k]);
+    const double ramp = load.ramp(time);
+    if (load.kind == Load::Kind::pressure)
+        return -ramp * load.value[0](X, time) * load.share[k].template head<Dim>();
+    Vec<Dim> force;
+    for (int a = 0; a < Dim; ++a) force[a] = ramp * load.share[k].x() * load.value[a](X, time);
+    return force;
+}
+
 /// Applied forces at the current time, and their work over the last `step` seconds by the trapezoidal rule.
 template <int Dim>
 void Simulation<Dim>::update_loads(double step) {
     for (std::size_t l = 0; l < loads_.size(); ++l) {
         const Load& load = physics_.loads[l];
         if (loads_[l].released) continue;
-        const double ramp = load.ramp(time());
         for (std::size_t k = 0; k < loads_[l].force.size(); ++k) {
             const int i = load.particles[k];
-            Vec<Dim> force;
-            if (load.kind == Load::Kind::pressure) {
-                force = -ramp * load.value[0](place(i), time()) * load.share[k].template head<Dim>();
-            } else {
-                for (int a = 0; a < Dim; ++a)
-                    force[a] = ramp * load.share[k].x() * load.value[a](place(i), time());
-            }
+            const Vec<Dim> force = applied_force(load, k, time());
             Vec<Dim>& now = loads_[l].force[k];
             work_ += step / 2 * (now + force).dot(model_.particles.velocity[i]);
             now = force;
@@ -275,6 +297,14 @@ void Simulation<Dim>::judge_and_break() {
         just_broken_.push_back(b);
         breaking_strains_.push_back(bond_strain<Dim>(r0, du));
     }
+    break_bonds();
+    sum_forces();
+}
+
+/// Those of just_broken_; the displacements stay.
+template <int Dim>
+void Simulation<Dim>::break_bonds() {
+    Bonds& bonds = model_.bonds;
     // Only the ends of broken bonds change their energy.
     std::vector<int> ends;
     for (const int b : just_broken_) ends.insert(ends.end(), {bonds.first[b], bonds.second[b]});
@@ -292,7 +322,6 @@ void Simulation<Dim>::judge_and_break() {
     }
     broken_ += static_cast<int>(just_broken_.size());
     released_ += before - energy();
-    sum_forces();
 }
 
 template <int Dim>
@@ -393,8 +422,25 @@ void Simulation<Dim>::report_failure() {
 }
 
 template <int Dim>
+double Simulation<Dim>::closest_to_breaking() const {
+    const Bonds& bonds = model_.bonds;
+    double closest = 0;
+    if (!can_break()) return closest;
+    for (int b = 0; b < bonds.count(); ++b) {
+        if (!bonds.is_intact(b)) continue;
+        const int i = bonds.first[b], j = bonds.second[b];
+        const double strain =
+            bond_strain<Dim>(model_.particles.reference_position[j] - model_.particles.reference_position[i],
+                             model_.particles.displacement[j] - model_.particles.displacement[i]);
+        const double bound = strain > 0 ? limits_.upper[b] : limits_.lower[b];
+        if (std::isfinite(bound)) closest = std::max(closest, strain / (std::sqrt(1 + bound) - 1));
+    }
+    return closest;
+}
+
+template <int Dim>
 std::string Simulation<Dim>::likely_cause() const {
-    if (time_step_ > 0.95 * stable_time_step_)
+    if (!physics_.statics && time_step_ > 0.95 * stable_time_step_)
         return fmt::format("the time step {:.3g} s is too close to the stable {:.3g} s", time_step_,
                            stable_time_step_);
     double largest = 0;
@@ -413,6 +459,7 @@ std::string Simulation<Dim>::likely_cause() const {
 
 template <int Dim>
 std::vector<std::string> Simulation<Dim>::stage_names() const {
+    if (physics_.statics) return static_stage_names();
     std::vector<std::string> names = {"half kick and drift"};
     if (!driven_.empty()) names.push_back("prescribed motion");
     if (std::any_of(loads_.begin(), loads_.end(), [](const LoadState& l) { return !l.force.empty(); }))

@@ -9,6 +9,7 @@
 
 #include "model/model.hpp"
 #include "physics/elastic.hpp"
+#include "physics/equilibrium.hpp"
 #include "physics/physics.hpp"
 
 namespace hibi {
@@ -16,7 +17,7 @@ namespace hibi {
 /// All at one time, positions and velocities in step (J).
 struct Energies {
     double kinetic = 0, elastic = 0, contact = 0;
-    double damped = 0;  ///< taken out by damping so far
+    double damped = 0;  ///< taken out by damping so far; in statics what is lost on the way to equilibrium
     double released =
         0;  ///< elastic energy of bonds at the moment they broke; a single break may be slightly negative
     double work =
@@ -38,21 +39,23 @@ struct Failure {
     std::string message;  ///< step, time, particle, likely cause
 };
 
-/// Owns the model and moves it in time by velocity Verlet. A step is the list of stages that the physics asks
-/// for.
+/// Owns the model and moves it in time by velocity Verlet, or from equilibrium to equilibrium where the
+/// physics has statics. A step is the list of stages that the physics asks for.
 template <int Dim>
 class Simulation {
  public:
-    /// Throws std::runtime_error where the physics does not fit the model (a damping ratio on a free body) or
-    /// the prescribed time step is not stable.
+    /// Throws std::runtime_error where the physics does not fit the model (a damping ratio, or statics, on a
+    /// free body) or the prescribed time step is not stable.
     Simulation(Model<Dim> model, Physics physics);
 
     void step();
 
-    double time() const { return static_cast<double>(steps_) * time_step_; }
-    double time_step() const { return time_step_; }
-    double stable_time_step() const { return stable_time_step_; }  ///< 2 / highest frequency (s)
-    double damping_rate() const { return damping_rate_; }          ///< c (1/s); 0 when undamped
+    double time() const { return time_; }
+    double time_step() const { return time_step_; }  ///< in statics the load step (s)
+    double stable_time_step() const {
+        return stable_time_step_;
+    }                                                      ///< 2 / highest frequency (s); 0 in statics
+    double damping_rate() const { return damping_rate_; }  ///< c (1/s); 0 when undamped
     std::int64_t steps() const { return steps_; }
     const Model<Dim>& model() const { return model_; }
     const Physics& physics() const { return physics_; }
@@ -76,6 +79,11 @@ class Simulation {
 
     /// Set when a number stopped being finite; the state is that of the failure.
     const std::optional<Failure>& failure() const { return failure_; }
+    /// Largest bond strain over its limit [-]; 0 where nothing can break.
+    double closest_to_breaking() const;
+    /// Statics only: set when there is no equilibrium beyond the current load, and says so. The state is the
+    /// last equilibrium; further steps change nothing.
+    const std::optional<std::string>& collapse() const { return collapse_; }
     /// Why a run at this state is likely to have gone wrong, for messages.
     std::string likely_cause() const;
 
@@ -94,6 +102,17 @@ class Simulation {
         double moved = 0, old_force = 0;        ///< in this step (m); total force before it (N)
     };
 
+    /// What a load step starts from.
+    struct StaticState {
+        std::vector<Vec<Dim>> displacement;
+        std::vector<LoadState> loads;
+        std::vector<Driven> driven;
+        Energies energies;
+        double load_time = 0;
+    };
+
+    void explicit_step();
+    void choose_time_step(bool can_break);
     void turn_with_neighbours();
     void kick();
     void drift();
@@ -102,7 +121,27 @@ class Simulation {
     void sum_forces();
     void finish_motion();
     void judge_and_break();
+    void break_bonds();
     void report_failure();
+    Vec<Dim> applied_force(const Load& load, std::size_t k, double time) const;
+
+    // static_step.cpp
+    void start_statics();
+    void static_step();
+    std::vector<std::string> static_stage_names() const;
+    void relax();
+    void raise_loads();
+    void pause();
+    void approach(double to);
+    void find_first_break(double from, double lower, double upper);
+    bool settle(double load_time, double share = 1);
+    StaticState static_state() const;
+    void restore(const StaticState& state);
+    void count_work(const StaticState& before, bool smooth);
+    double utilisation(int bond) const;
+    double highest_utilisation() const;
+    void break_overstrained();
+
     Vec3 place(int particle) const { return to_3d<Dim>(model_.particles.reference_position[particle]); }
 
     Model<Dim> model_;
@@ -115,6 +154,7 @@ class Simulation {
     std::vector<LoadState> loads_;
     std::vector<Driven> driven_;
     double stable_time_step_ = 0, time_step_ = 0, damping_rate_ = 0;
+    double time_ = 0;
     std::int64_t steps_ = 0;
     bool beyond_limits_ = false;
     int broken_ = 0;
@@ -122,6 +162,13 @@ class Simulation {
     std::vector<int> just_broken_;
     std::vector<double> breaking_strains_;
     std::optional<Failure> failure_;
+
+    std::optional<Equilibrium<Dim>> equilibrium_;  ///< statics only, as all below
+    double load_time_ = 0;                         ///< for which the loads stand (s)
+    bool settled_ = true;                          ///< no bond has broken since equilibrium was found
+    bool smooth_ = true;                           ///< see Settled, of the last step
+    std::vector<char> fragment_;                   ///< particles that nothing ties to a support
+    std::optional<std::string> collapse_;
 };
 
 extern template class Simulation<2>;

@@ -1,12 +1,12 @@
 #include "physics/time_step.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "physics/cholesky.hpp"
 #include "physics/tangent.hpp"
 
 namespace hibi {
@@ -95,39 +95,24 @@ double highest_frequency(Model<Dim>& model, ElasticLaw<Dim>& law) {
 template <int Dim>
 double first_frequency(const Model<Dim>& model, const std::vector<std::array<bool, 3>>& held) {
     const int n = model.particles.count();
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> full = tangent_at_rest(model);
-    std::vector<int> unknown(Dim * n, -1);
-    std::vector<double> root_mass;
-    int count = 0;
-    for (int i = 0; i < n; ++i) {
-        for (int a = 0; a < Dim; ++a) {
-            if (held[i][a]) continue;
-            unknown[Dim * i + a] = count++;
-            root_mass.push_back(std::sqrt(model.particles.mass[i]));
-        }
-    }
-    if (count == 0) throw std::runtime_error("every particle is held: there is no first mode to damp");
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int row = 0; row < full.outerSize(); ++row) {
-        if (unknown[row] < 0) continue;
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator at(full, row); at; ++at) {
-            const int r = unknown[row], c = unknown[at.col()];
-            if (c >= 0 && c <= r) entries.emplace_back(r, c, at.value() / (root_mass[r] * root_mass[c]));
-        }
-    }
-    Eigen::SparseMatrix<double> K(count, count);
-    K.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky(K);
-    const double stiffest = K.diagonal().maxCoeff();
-    if (cholesky.info() != Eigen::Success || cholesky.vectorD().minCoeff() < 1e-10 * stiffest)
-        throw std::runtime_error("a body can move freely: it has no first mode to damp by a ratio");
-
-    Eigen::VectorXd y(count);
-    for (int k = 0; k < count; ++k) y[k] = unit_random(mix_bits(k)) - 0.5;
+    Tangent<Dim> tangent(model);
+    Eigen::SparseMatrix<double> K = tangent.assemble(held);
+    for (int column = 0; column < K.outerSize(); ++column)
+        for (Eigen::SparseMatrix<double>::InnerIterator at(K, column); at; ++at)
+            at.valueRef() /=
+                std::sqrt(model.particles.mass[column / Dim] * model.particles.mass[at.row() / Dim]);
+    Eigen::VectorXd y(Dim * n);
+    for (int k = 0; k < Dim * n; ++k) y[k] = held[k / Dim][k % Dim] ? 0 : unit_random(mix_bits(k)) - 0.5;
+    if (y.isZero(0)) throw std::runtime_error("every particle is held: there is no first mode to damp");
     y.normalize();
+
+    Cholesky cholesky(K);
+    if (!cholesky.factorise(K) || cholesky.weakest(K).ratio < singular_pivot)
+        throw std::runtime_error("a body can move freely: it has no first mode to damp by a ratio");
+    Eigen::VectorXd next;
     double eigenvalue = 0;
     for (int iteration = 0; iteration < 200; ++iteration) {
-        const Eigen::VectorXd next = cholesky.solve(y);
+        cholesky.solve(y, next);
         const double estimate = 1 / y.dot(next);
         y = next.normalized();
         if (std::abs(estimate - eigenvalue) < 1e-10 * estimate) break;

@@ -67,11 +67,11 @@ void remove_leftovers(const std::filesystem::path& folder) {
     remove_numbered(folder / "states", ".hdf");
 }
 
-void remove_pictures(const std::filesystem::path& folder) {
+void remove_pictures(const std::filesystem::path& folder, bool films) {
     for (const char* name : pictures) remove_with_unfinished(folder / name);
     for (const char* type : {"mp4", "gif", "webm", "apng", "webp"})
         for (const char* stage : {"", ".part", ".whole"})
-            remove_one(folder / fmt::format("movie{}.{}", stage, type));
+            if (films || *stage) remove_one(folder / fmt::format("movie{}.{}", stage, type));
     remove_numbered(folder / "frames", ".png");
     remove_figures(folder / "figures");
     for (const char* name : {"figures", "snippets"})

@@ -22,6 +22,11 @@ Provenance provenance_of(const RunSummary& summary) {
     return {summary.title, summary.version, summary.scene_hash, parameters, summary.command};
 }
 
+Provenance followed_by(Provenance provenance, const std::vector<std::string>& words) {
+    if (!words.empty() && !provenance.command.empty()) provenance.command += " && " + shell_command(words);
+    return provenance;
+}
+
 Texts to_texts(const Provenance& p) {
     Texts texts{{"Title", p.title},
                 {"Software", program + p.version},

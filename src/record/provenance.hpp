@@ -18,6 +18,8 @@ struct Provenance {
     std::string command;     ///< ready for a shell
 };
 Provenance provenance_of(const RunSummary& summary);
+/// The same for what another command makes of it afterwards; without words it stays as it is.
+Provenance followed_by(Provenance provenance, const std::vector<std::string>& words);
 
 using Texts = std::map<std::string, std::string>;  ///< keyword -> text, as in a PNG
 /// Keywords Title, Software, Scene hash, Parameters, Command; empty ones are left out.

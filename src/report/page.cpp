@@ -53,7 +53,9 @@ std::string outcome(const RunSummary& s) {
         text += fmt::format("{} at {}", words, format_si((*event)->time, "s"));
         if (s.events.peak_load) text += " under " + format_si((*event)->load, "N");
     }
-    return text.empty() ? "No bond broke." : text + ".";
+    if (!text.empty()) text += ".";
+    if (!s.events.first_break) text = text.empty() ? "No bond broke." : "No bond broke. " + text;
+    return text;
 }
 
 std::string verdict(const RunSummary& s) {

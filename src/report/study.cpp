@@ -184,7 +184,8 @@ std::string study_table(const std::vector<StudyRun>& runs) {
             };
             row.push_back(fmt::format("{}", s.particles));
             row.push_back(load(s.events.first_break));
-            row.push_back(load(s.events.peak_load));
+            const bool held = !s.events.first_break && s.events.peak_load;  // it would have borne more
+            row.push_back((held ? "> " : "") + load(s.events.peak_load));
             row.push_back(s.events.separation ? format_si(s.events.separation->time, "s", 4) : "-");
             row.push_back(fmt::format("{:.2g} %{}", 100 * s.worst_imbalance, s.trusted ? "" : " !"));
             row.push_back(format_si(solve_seconds(s), "s"));
@@ -240,7 +241,8 @@ std::optional<Chart> study_chart(const std::vector<StudyRun>& runs) {
         const double x = run.parameters[varying[0]].value;
         if (varying.size() == 1) {
             add("first break", x, run.summary->events.first_break);
-            add("peak load", x, run.summary->events.peak_load);
+            if (run.summary->events.first_break)  // else it is where the ramp ended
+                add("peak load", x, run.summary->events.peak_load);
         } else {
             const StudyRun::Parameter& second = run.parameters[varying[1]];
             add(fmt::format("first break, {} = {}", second.name, second.text), x,

@@ -61,7 +61,9 @@ void BlockReader::check_dimension(const std::string& key, const Value& value, co
         return;
     std::string way_out = hint(key);
     const std::string without_sign = value.text.starts_with("-") ? value.text.substr(1) : value.text;
-    if (key == "force" && expression.dimension() == dimension_of("Pa"))
+    if (context_.names.params.contains(without_sign))
+        way_out = fmt::format("make \"{}\" in [params] {}", without_sign, dimension_words(unit));
+    else if (key == "force" && expression.dimension() == dimension_of("Pa"))
         way_out = fmt::format("for a face load write: pressure = \"{}\"", without_sign);
     else if (key == "pressure" && expression.dimension() == dimension_of("N"))
         way_out = "for a total force write: force = [...]";

@@ -156,6 +156,10 @@ Built<2> assemble(const Scene& scene, Problems& problems) {
     physics.elasticity = scene.elasticity;
     physics.gravity = scene.gravity;
     if (scene.damping) physics.damping = scene.damping->damping;
+    if (scene.run.statics)
+        physics.statics = Statics{.duration = scene.run.max_time,
+                                  .load_steps = scene.run.statics->load_steps,
+                                  .sequential = scene.run.statics->sequential};
     physics.time_step = scene.run.time_step;
     physics.time_step_factor = scene.run.time_step_factor;
     for (std::size_t k = 0; k < scene.fixes.size(); ++k) {
@@ -175,20 +179,24 @@ Built<2> assemble(const Scene& scene, Problems& problems) {
     }
     if (!problems.concerns("load") && !problems.concerns("fix")) {
         check_conflicts(built, problems);
-        if (scene.damping && scene.damping->damping.ratio && problems.fine("damping/ratio"))
-            if (const auto particle = free_particle(built)) {
-                const Vec<2>& X = model.particles.reference_position[*particle];
-                problems.add(
-                    "damping/ratio",
-                    fmt::format(
-                        "[damping] ratio: the part of the model at ({:g} m, {:g} m) can move freely, so "
-                        "there is no first mode",
-                        X.x(), X.y()),
-                    "give a rate, for example: rate = \"0.5 s^-1\"; or hold every part in [[fix]]");
-            }
+        const bool ratio = scene.damping && scene.damping->damping.ratio && problems.fine("damping/ratio");
+        const std::optional<int> particle =
+            ratio || scene.run.statics ? free_particle(built) : std::optional<int>{};
+        if (particle) {
+            const Vec<2>& X = model.particles.reference_position[*particle];
+            const std::string part =
+                fmt::format("the part of the model at ({:g} m, {:g} m) can move freely", X.x(), X.y());
+            if (ratio)
+                problems.add("damping/ratio",
+                             fmt::format("[damping] ratio: {}, so there is no first mode", part),
+                             "give a rate, for example: rate = \"0.5 s^-1\"; or hold every part in [[fix]]");
+            else
+                problems.add("run/method", fmt::format("[run] method: {}, so it has no equilibrium", part),
+                             "hold every part in [[fix]]");
+        }
     }
     if (scene.run.time_step && problems.fine("run/time_step") && problems.fine("material") &&
-        problems.fine("body")) {
+        problems.fine("body") && !scene.run.statics) {
         const double limit = stable_time_step(model, scene.elasticity);
         if (!(*scene.run.time_step <= limit))
             problems.add("run/time_step",

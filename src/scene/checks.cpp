@@ -232,6 +232,41 @@ void check_loads(const Scene& scene, const Possible& possible, Problems& problem
     }
 }
 
+/// Whether it starts with a velocity or a spin.
+bool moves(const BodySpec& body) {
+    return body.spin != 0 || !body.velocity[0].is_constant() || !body.velocity[1].is_constant() ||
+           body.velocity[0](Vec3::Zero(), 0) != 0 || body.velocity[1](Vec3::Zero(), 0) != 0;
+}
+
+/// What has no meaning where nothing moves in time.
+void check_statics(const Scene& scene, Problems& problems) {
+    if (!scene.run.statics) return;
+    const auto refuse = [&](const std::string& path, const std::string& what, const std::string& hint) {
+        problems.add(path, what + ": [run] method = \"static\" knows no motion in time", hint);
+    };
+    if (scene.elasticity == Elasticity::thesis)
+        problems.add("model/elasticity",
+                     "[model] elasticity: method = \"static\" is for moment-matched alone",
+                     "leave one of the two out");
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+        const std::string path = fmt::format("body/{}", k);
+        if (problems.fine(path + "/velocity") && problems.fine(path + "/spin") && moves(scene.bodies[k]))
+            refuse(path, fmt::format("body \"{}\" has a velocity or spin", scene.bodies[k].name),
+                   "leave it out");
+    }
+    for (std::size_t k = 0; k < scene.loads.size(); ++k) {
+        const std::string path = fmt::format("load/{}", k);
+        if (scene.loads[k].kind == Load::Kind::velocity)
+            refuse(path + "/velocity", "[[load]] velocity", "prescribe a displacement, with a ramp");
+        if (scene.loads[k].until)
+            refuse(path + "/until", "[[load]] until", "leave it out; a value over t can fall again");
+    }
+    if (scene.damping) refuse("damping", "[damping]", "leave the block out");
+    if (scene.run.time_step) refuse("run/time_step", "[run] time_step", "load_steps says how many there are");
+    if (scene.run.time_step_factor)
+        refuse("run/time_step_factor", "[run] time_step_factor", "load_steps says how many there are");
+}
+
 void check_rest(const Scene& scene, const Possible& possible, Problems& problems) {
     if (scene.damping) {
         if (scene.damping->damping.ratio)
@@ -280,11 +315,8 @@ void check_rest(const Scene& scene, const Possible& possible, Problems& problems
         check_moment({true, true, true}, scene.strip.at[k], false, fmt::format("strip/at/{}", k),
                      "[strip] at", problems);
 
-    const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const BodySpec& body) {
-        return body.spin != 0 || !body.velocity[0].is_constant() || !body.velocity[1].is_constant() ||
-               body.velocity[0](Vec3::Zero(), 0) != 0 || body.velocity[1](Vec3::Zero(), 0) != 0;
-    });
-    if (scene.loads.empty() && !scene.gravity && !moves && problems.fine("load") && problems.fine("body") &&
+    const bool moving = std::any_of(scene.bodies.begin(), scene.bodies.end(), moves);
+    if (scene.loads.empty() && !scene.gravity && !moving && problems.fine("load") && problems.fine("body") &&
         problems.fine("gravity"))
         problems.add("load",
                      "nothing would happen: no [[load]], no [gravity], no body with a velocity or spin",
@@ -313,6 +345,7 @@ void check_scene(const Scene& scene, Problems& problems) {
     possible.held = !scene.fixes.empty() || problems.concerns("fix");
     check_loads(scene, possible, problems);
     check_rest(scene, possible, problems);
+    check_statics(scene, problems);
 }
 
 }  // namespace hibi

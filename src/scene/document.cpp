@@ -162,7 +162,7 @@ SceneError located(const toml::parse_error& error) {
         result.hint = "the same name stands here twice; a list of bodies is written [[body]]";
     } else if (result.message.find("expected a comment") != std::string::npos ||
                result.message.find("could not determine value type") != std::string::npos) {
-        result.hint = "a value with a unit stands in quotes: \"5 m\"";
+        result.hint = "quantities, names and conditions stand in quotes: \"5 m\", \"depth\", \"x < 1 m\"";
     }
     return result;
 }

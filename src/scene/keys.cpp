@@ -176,6 +176,16 @@ const std::vector<KeyBlock>& scene_blocks() {
             {"until", moment, "", "max_time", "when the run ends", R"("separation + 0.5 s")"},
             {"max_time", quantity, "s", "required, unless until is a time", "when it ends at the latest",
              R"("60 s")"},
+            {"method", choice, "", "explicit",
+             "explicit: motion in time; static: from equilibrium to equilibrium, while the loads rise with "
+             "the time",
+             R"("static")", {"explicit", "static"}},
+            {"load_steps", integer, "", "50", "with method static: in how many even steps max_time is reached",
+             "100"},
+            {"breaking", choice, "", "sequential",
+             "with method static: sequential breaks the one bond furthest beyond its limit, then finds "
+             "equilibrium again; together breaks all that are beyond theirs",
+             R"("together")", {"sequential", "together"}},
             {"time_step", quantity, "s", "chosen", "must be below the stable limit", R"("1 ms")"},
             {"time_step_factor", quantity, "", "0.8, or 0.5 where bonds can break",
              "the chosen time step over the stable limit, below 1", "0.5"},

@@ -240,6 +240,23 @@ void read_run(const Value& document, ReadContext& context, Scene& scene) {
         block->fail("max_time", "missing key \"max_time\" in [run]", "for example: max_time = \"60 s\"");
     scene.run.time_step = block->quantity("time_step");
     scene.run.time_step_factor = block->quantity("time_step_factor");
+    if (block->choice("method") == "static") scene.run.statics.emplace();
+    const auto load_steps = block->integer("load_steps");
+    const auto breaking = block->choice("breaking");
+    if (!scene.run.statics) {
+        for (const char* key : {"load_steps", "breaking"})
+            if (block->has(key) && context.problems.fine(block->path("method")))
+                block->fail(key, fmt::format("[run] {} goes with method = \"static\"", key));
+        return;
+    }
+    if (load_steps) {
+        if (*load_steps >= 1 && *load_steps <= 1'000'000)
+            scene.run.statics->load_steps = static_cast<int>(*load_steps);
+        else
+            block->fail("load_steps",
+                        fmt::format("[run] load_steps needs to be from 1 to 1000000; found {}", *load_steps));
+    }
+    scene.run.statics->sequential = breaking != "together";
 }
 
 void read_view(const Value& document, ReadContext& context, View& view) {

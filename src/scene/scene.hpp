@@ -69,10 +69,16 @@ struct DampingSpec {
     std::optional<Moment> until{};
 };
 
+struct StaticSpec {
+    int load_steps = 50;
+    bool sequential = true;
+};
+
 struct RunSpec {
     std::optional<Moment> until{};  ///< absent: max_time
     double max_time = 0;            ///< (s), required
     std::optional<double> time_step{}, time_step_factor{};
+    std::optional<StaticSpec> statics{};  ///< absent: explicit
 };
 
 struct SlowSpec {
@@ -85,9 +91,9 @@ struct MovieSpec {
     double duration = 12;  ///< of the whole film (s)
     int fps = 25;
     std::vector<SlowSpec> slow{};
-    std::optional<double> hold{};    ///< of the last picture, within the duration (s); absent: a twelfth of it
-    double flash = 0.6;              ///< of a fresh break (s of playback)
-    std::optional<Moment> poster{};  ///< absent: when two thirds of the bonds are broken
+    std::optional<double> hold{};  ///< of the last picture, within the duration (s); absent: a twelfth of it
+    double flash = 0.6;            ///< of a fresh break (s of playback)
+    std::optional<Moment> poster{};           ///< absent: when two thirds of the bonds are broken
     std::vector<std::string> formats{"mp4"};  ///< of film_formats()
     double gif_limit = 10e6;                  ///< (bytes)
     double hold_seconds() const { return hold.value_or(duration / 12); }

@@ -235,6 +235,11 @@ std::string write_scene(const Scene& scene) {
     out.block("[run]");
     out.line("until", scene.run.until);
     out.line("max_time", scene.run.max_time);
+    out.line("method", quote(scene.run.statics ? "static" : "explicit"));
+    if (scene.run.statics) {
+        out.line("load_steps", fmt::format("{}", scene.run.statics->load_steps));
+        out.line("breaking", quote(scene.run.statics->sequential ? "sequential" : "together"));
+    }
     out.line("time_step", scene.run.time_step);
     out.line("time_step_factor", scene.run.time_step_factor);
     write_pictures(out, scene.view, scene.movie, scene.strip);

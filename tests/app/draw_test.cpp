@@ -241,6 +241,9 @@ TEST(Draw, FilmsComeInTheFormatsAskedForAndGoAgain) {
     for (const std::string& format : film_formats())
         EXPECT_TRUE(fs::exists(folder.path() / ("movie." + format)));
     EXPECT_EQ(film_in(folder.path()), "movie.mp4");
+    every_format.formats = {"gif"};
+    draw_run(scene, folder.path(), every_format);  // one more of these costs none of the others
+    EXPECT_TRUE(fs::exists(folder.path() / "movie.webm"));
     draw_run(scene, folder.path(), {.movie = false, .frames = false});
     EXPECT_EQ(film_in(folder.path()), "");  // record/leftovers knows them all
 }

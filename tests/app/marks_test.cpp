@@ -28,6 +28,18 @@ TEST(Marks, AClampLiesOnTheOuterSideOfTheHeldParticles) {
     EXPECT_EQ(line, column(0));
 }
 
+TEST(Marks, RoundingOfTheCentresLosesNoParticle) {
+    Topology t = plate();
+    t.loads.clear();
+    for (Vec3& X : t.reference_position)
+        X *= 0.1;  // centres at odd multiples of half a spacing, but for rounding
+    for (double& l0 : t.spacing) l0 = 0.1;
+    t.supports[0].particles = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    const std::vector<Mark> marks = find_marks(t, true, false);
+    ASSERT_EQ(marks.size(), 1u);
+    EXPECT_EQ(marks[0].particles.size(), 10u);
+}
+
 TEST(Marks, SupportsFarApartAreDrawnApart) {
     Topology t = plate();
     t.supports = {{"feet", {0, 1, 8, 9}, {false, true, false}}};

@@ -98,6 +98,20 @@ TEST_F(WholeRun, TheWindowHoldsTheBodyUpToSeparationAndNoMore) {
     EXPECT_LT(source.at(2).y[9], window[1]);  // what falls later leaves the picture
 }
 
+TEST_F(WholeRun, TheWindowDoesNotFollowWhatFliesOff) {
+    cantilever_.columns = 20;
+    cantilever_.rows = 10;
+    cantilever_.write(folder_.path());
+    const std::array<double, 4> whole = body_window(RunReader(folder_.path()), View{});
+    cantilever_.flies = 199;
+    cantilever_.write(folder_.path());
+    const RunReader run(folder_.path());
+    EXPECT_GT(run.extent(30).high.x(), 100);
+    EXPECT_EQ(loose_since(run)[199], 0.5);
+    EXPECT_FALSE(std::isfinite(loose_since(run)[198]));
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(body_window(run, View{})[k], whole[k], 1);
+}
+
 TEST_F(WholeRun, ASignedFieldHasASymmetricRoundRange) {
     // 0.2 * height / rows at the clamp: at most 0.2 * 2 / 5 = 0.08
     EXPECT_NEAR(colour_range(*run_, "bond_strain", true)[0], -0.08, 1e-9);

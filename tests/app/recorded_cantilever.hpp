@@ -16,6 +16,7 @@ struct RecordedCantilever {
     int columns = 10, rows = 5;
     double end = 2, first_break = 1, separation = 1.5;  // (s)
     int states = 41;
+    int flies = -1;  // a particle that loses all its bonds at 0.5 s and flies off to the right
 
     int particle(int i, int j) const { return j * columns + i; }
 
@@ -48,6 +49,7 @@ struct RecordedCantilever {
 
     /// Infinity, or the time at which a bond between the first two columns breaks: the higher, the earlier.
     double broken_at(const Topology& t, int bond) const {
+        if (t.first[bond] == flies || t.second[bond] == flies) return 0.5;
         const Vec3 &a = t.reference_position[t.first[bond]], &b = t.reference_position[t.second[bond]];
         if ((a.x() < 1) == (b.x() < 1)) return std::numeric_limits<double>::infinity();
         const double depth =
@@ -72,6 +74,7 @@ struct RecordedCantilever {
             s.energy.push_back(static_cast<float>(height * height * load));
             s.stress.push_back({});
         }
+        if (flies >= 0) s.displacement[flies].x() += 100 * std::max(0.0, s.time - 0.5);
         for (int b = 0; b < static_cast<int>(t.first.size()); ++b)
             if (broken_at(t, b) <= s.time) {
                 s.broken.push_back(b);

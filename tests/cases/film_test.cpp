@@ -96,8 +96,9 @@ TEST_F(Film, SameBitsAgainWithOtherThreadsVectorsAndBackEnd) {
                                                                    {"--gl egl", "LP_NUM_THREADS=2"}};
     for (const auto& [arguments, environment] : ways) {
         const fs::path other = folder_ / "other";
-        const Answer answer = hibi(
-            "run " + scene_.string() + " -q --no-report --force -o " + other.string() + " " + arguments, environment);
+        const Answer answer =
+            hibi("run " + scene_.string() + " -q --no-report --force -o " + other.string() + " " + arguments,
+                 environment);
         ASSERT_EQ(answer.status, 0) << answer.out;
         EXPECT_EQ(prints_of(other), first) << environment << " " << arguments;
     }
@@ -113,8 +114,9 @@ TEST_F(Film, SameStatesOfALargerPlateForOneTwoAndThreeThreads) {
     std::set<std::string> prints;
     for (const char* threads : {"1", "2", "3"}) {
         const fs::path other = folder_ / "larger";
-        const Answer answer = hibi("run " + scene.string() + " -q --no-report --force -p spacing=0.4m --threads " +
-                                   threads + " -o " + other.string());
+        const Answer answer =
+            hibi("run " + scene.string() + " -q --no-report --force -p spacing=0.4m --threads " + threads +
+                 " -o " + other.string());
         ASSERT_EQ(answer.status & ~4, 0) << answer.out;
         EXPECT_GT(RunReader(other).summary().broken, 10);
         prints.insert(prints_of(other));
@@ -127,7 +129,8 @@ TEST_F(Film, TheSceneAndStrangersFilesAreNeverOverwritten) {
     fs::create_directories(folder);
     fs::copy_file(scene_, folder / "scene.toml");
     const std::string before = text_of(folder / "scene.toml");
-    Answer answer = hibi("run " + (folder / "scene.toml").string() + " -q --no-report --force -o " + folder.string());
+    Answer answer =
+        hibi("run " + (folder / "scene.toml").string() + " -q --no-report --force -o " + folder.string());
     EXPECT_EQ(answer.status, 1) << answer.out;
     EXPECT_EQ(text_of(folder / "scene.toml"), before);
     fs::remove(folder / "scene.toml");
@@ -156,7 +159,8 @@ TEST_F(Film, SeparationOfWhatNeverHeldTogetherIsAnErrorBeforeTheRun) {
         scene_, folder_ / "apart.toml",
         {{"\nratio = 0.3", "\nrate = 2"},
          {"\\[damping\\]", "[[notch]]\nline = [[\"20 m\", \"-1 m\"], [\"20 m\", \"21 m\"]]\n\n[damping]"}});
-    const Answer answer = hibi("run " + scene.string() + " -q --no-report -o " + (folder_ / "apart").string());
+    const Answer answer =
+        hibi("run " + scene.string() + " -q --no-report -o " + (folder_ / "apart").string());
     EXPECT_EQ(answer.status, 2) << answer.out;
     EXPECT_NE(answer.out.find("separation cannot happen"), std::string::npos) << answer.out;
     EXPECT_FALSE(fs::exists(folder_ / "apart"));
@@ -256,6 +260,23 @@ TEST_F(Film, EveryFileSaysWhichCommandMadeIt) {
         EXPECT_EQ(answer.out, command) << name;
     }
     EXPECT_EQ(hibi("reproduce " + scene_.string()).status, 2);
+    // What was made of the run later: that command stands behind the run's.
+    const std::string strip = (folder_ / "strip.png").string(), setup = (folder_ / "setup.png").string();
+    ASSERT_EQ(hibi("strip " + run_.string() + " --theme light --width 50 -o " + strip).status, 0);
+    EXPECT_EQ(hibi("reproduce " + strip).out, command.substr(0, command.size() - 1) + " && hibi strip " +
+                                                  run_.string() + " --theme light --width 50 -o " + strip +
+                                                  "\n");
+    ASSERT_EQ(hibi("preview " + scene_.string() + " -o " + setup).status, 0);
+    EXPECT_EQ(hibi("reproduce " + setup).out, "hibi preview " + scene_.string() + " -o " + setup + "\n");
+}
+
+TEST_F(Film, ANumberWithoutItsUnitIsNoted) {
+    const std::string out = (folder_ / "plain").string();
+    const Answer answer = hibi("run " + scene_.string() + " -p spacing=4 --no-pictures -q -o " + out);
+    EXPECT_EQ(answer.status, 0);
+    EXPECT_NE(answer.out.find("note: spacing = 4 has no unit and is taken in SI; the scene says 2 m"),
+              std::string::npos)
+        << answer.out;
 }
 
 TEST_F(Film, ReproduceNotesThatTheSceneHasChangedSince) {
@@ -273,7 +294,8 @@ TEST_F(Film, ReproduceNotesThatTheSceneHasChangedSince) {
 
 TEST_F(Film, TheSceneAsRunGivesTheSameRun) {
     const fs::path other = folder_ / "again";
-    const Answer answer = hibi("run " + (run_ / "scene.toml").string() + " -q --no-report -o " + other.string());
+    const Answer answer =
+        hibi("run " + (run_ / "scene.toml").string() + " -q --no-report -o " + other.string());
     ASSERT_EQ(answer.status, 0) << answer.out;
     EXPECT_EQ(prints_of(other), prints_of(run_));
 }

@@ -31,6 +31,10 @@ TEST(Decimal, HasATrueMinusAndNoNegativeZero) {
     EXPECT_EQ(decimal(17.654, 3), "17.654");
 }
 
+TEST(Ticks, ALoneOneIsNoScale) {
+    EXPECT_EQ(round_ticks(0, 416, 2).at, (Numbers{0, 250}));  // 200 would give three, 500 one
+}
+
 TEST(Ticks, AreRoundAndFewEnough) {
     EXPECT_EQ(round_ticks(0, 37, 5).at, (Numbers{0, 10, 20, 30}));
     EXPECT_EQ(round_ticks(0, 1.7, 5).at, (Numbers{0, 0.5, 1.0, 1.5}));

@@ -32,6 +32,7 @@ PageContent content() {
     c.scene = "title = \"</script><script>alert(1)</script>\"";
     c.poster = "poster";
     c.film = "film";
+    c.film_type = "video/mp4";
     c.frame_times = {0, 1, 2};
     return c;
 }

@@ -49,6 +49,7 @@ await inBrowser({ width: 1280, height: 900 }, async (page, complaints) => {
       await page.mouse.click(box.x + x / view[0] * box.width, box.y + y / view[1] * box.height);
       await settled();
     };
+    await page.keyboard.press('Home'); await settled();
     const before = await readout();
     if (place.of_time) {
       await clickAt(place.axes[0] + place.axes[2] / 2, place.axes[1] + place.axes[3] / 2);
@@ -70,7 +71,7 @@ await inBrowser({ width: 1280, height: 900 }, async (page, complaints) => {
   await page.keyboard.press('Home'); await settled();
   const start = await cursor(run.charts.length - 1);
   await page.locator('#play').click();
-  await page.waitForTimeout(1200);
+  await page.waitForFunction(fps => document.querySelector('video').currentTime * fps > 6.5, run.fps, { timeout: 30000 }).catch(() => {});
   await page.locator('#play').click();
   expect(await frame() > 5, 'the film does not play');
   expect(await cursor(run.charts.length - 1) > start, 'the cursor does not follow the film');

@@ -1,0 +1,267 @@
+#include "physics/equilibrium.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/parallel.hpp"
+
+namespace hibi {
+
+namespace {
+
+constexpr int most_newton_steps = 40, most_halvings = 12;
+/// Iterations beyond which a new factor is cheaper: one costs as much as ten to twenty of them (measured on
+/// 2000 to 100 000 particles).
+constexpr int most_iterations = 12, most_iterations_when_new = 30;
+/// Shifts tried in turn where the tangent is not positive definite.
+constexpr double first_shift = 1e-8, last_shift = 10, next_shift = 30;
+/// A displacement of this many times the body's extent is a flight, not a way to equilibrium.
+constexpr double flight = 10;
+
+template <int Dim>
+double dot(const std::vector<Vec<Dim>>& a, const std::vector<Vec<Dim>>& b) {
+    return parallel_sum<double>(static_cast<int>(a.size()), [&](int begin, int end) {
+        double sum = 0;
+        for (int i = begin; i < end; ++i) sum += a[i].dot(b[i]);
+        return sum;
+    });
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::array<bool, 3>> held_components(int particles, const Physics& physics) {
+    std::vector<std::array<bool, 3>> held(particles, std::array<bool, 3>{});
+    for (const Hold& hold : physics.holds)
+        for (const int i : hold.particles)
+            for (int a = 0; a < Dim; ++a) held[i][a] = held[i][a] || hold.axes[a];
+    for (const Load& load : physics.loads)
+        for (const int i : load.particles)
+            for (int a = 0; a < Dim; ++a) held[i][a] = held[i][a] || load.driven[a];
+    return held;
+}
+
+std::vector<char> tied_to_support(const Bonds& bonds, const std::vector<std::array<bool, 3>>& held) {
+    const int n = static_cast<int>(held.size());
+    std::vector<char> tied(n, 0);
+    std::vector<int> queue;
+    for (int i = 0; i < n; ++i) {
+        if (!held[i][0] && !held[i][1] && !held[i][2]) continue;
+        tied[i] = 1;
+        queue.push_back(i);
+    }
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+        const int i = queue[head];
+        for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
+            const int j = bonds.other(bonds.bonds_of[k], i);
+            if (tied[j] || !bonds.is_intact(bonds.bonds_of[k])) continue;
+            tied[j] = 1;
+            queue.push_back(j);
+        }
+    }
+    return tied;
+}
+
+template <int Dim>
+Equilibrium<Dim>::Equilibrium(const Model<Dim>& model, std::vector<std::array<bool, 3>> held)
+    : held_(std::move(held)), tangent_(model) {
+    const Particles<Dim>& particles = model.particles;
+    const Bonds& bonds = model.bonds;
+    const auto refuse = [&](int i) {
+        throw std::runtime_error(fmt::format(
+            "body \"{}\" can move freely, so it has no equilibrium: hold it with [[fix]], in both "
+            "directions and against turning",
+            model.bodies[particles.body[i]].name));
+    };
+    const std::vector<char> tied = tied_to_support(bonds, held_);
+    for (int i = 0; i < particles.count(); ++i) {
+        if (tied[i]) continue;
+        for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k)
+            if (bonds.is_intact(bonds.bonds_of[k])) refuse(i);
+        hold(i);
+    }
+    Vec<Dim> low = particles.reference_position.at(0), high = low;
+    for (const Vec<Dim>& X : particles.reference_position) {
+        low = low.cwiseMin(X);
+        high = high.cwiseMax(X);
+    }
+    extent_ = (high - low).maxCoeff();
+    const Eigen::SparseMatrix<double>& K = tangent_.assemble(held_);
+    stiffness_ = K.diagonal();
+    cholesky_.emplace(K);
+    factorised_ = cholesky_->factorise(K);
+    ++factorisations_;
+    if (!factorised_) refuse(0);
+    if (const Cholesky::Pivot pivot = cholesky_->weakest(K); pivot.ratio < singular_pivot)
+        refuse(pivot.row / Dim);
+}
+
+template <int Dim>
+void Equilibrium<Dim>::hold(int particle) {
+    for (int a = 0; a < Dim; ++a) held_[particle][a] = true;
+    factorised_ = false;
+}
+
+/// Residual, its scale and its floor, from the forces of the law in particles.force.
+template <int Dim>
+void Equilibrium<Dim>::balance(const Model<Dim>& model, const std::vector<Vec<Dim>>& applied) {
+    const Particles<Dim>& particles = model.particles;
+    residual_.resize(Dim * particles.count());
+    double squares = 0, rounding = 0;
+    for (int i = 0; i < particles.count(); ++i) {
+        for (int a = 0; a < Dim; ++a) {
+            const double total = particles.force[i][a] + applied[i][a];
+            residual_[Dim * i + a] = held_[i][a] ? 0 : total;
+            squares += held_[i][a] ? total * total : applied[i][a] * applied[i][a];
+            const double stiff = stiffness_[Dim * i + a] * particles.displacement[i][a];
+            rounding += stiff * stiff;
+        }
+    }
+    scale_ = std::sqrt(squares);
+    floor_ = 2 * std::numeric_limits<double>::epsilon() * std::sqrt(rounding);
+}
+
+template <int Dim>
+bool Equilibrium<Dim>::factorise() {
+    const Eigen::SparseMatrix<double>& K = tangent_.assemble(held_);
+    stiffness_ = K.diagonal();
+    ++factorisations_;
+    // A part that can move without resistance, a fragment on a roller say, must not be driven by rounding.
+    return cholesky_->factorise(K) && cholesky_->weakest(K).ratio > singular_pivot / 100;
+}
+
+/// step = K^-1 residual to the given accuracy, by what factor there is; false where the factor does not do or
+/// K is not positive definite.
+template <int Dim>
+bool Equilibrium<Dim>::conjugate_gradients(double accuracy, int most) {
+    const double goal = accuracy * residual_.norm();
+    Eigen::VectorXd r = residual_, z, p, Kp;
+    step_.setZero(r.size());
+    double rz = 0;
+    for (int iteration = 0; iteration < most; ++iteration) {
+        cholesky_->solve(r, z);
+        ++iterations_;
+        const double next = r.dot(z);
+        if (iteration == 0)
+            p = z;
+        else
+            p = z + next / rz * p;
+        rz = next;
+        tangent_.multiply(p, Kp);
+        for (int k = 0; k < Kp.size(); ++k)
+            if (held_[k / Dim][k % Dim]) Kp[k] = 0;
+        const double curvature = p.dot(Kp);
+        if (!(curvature > 0)) return false;
+        step_ += rz / curvature * p;
+        r -= rz / curvature * Kp;
+        if (r.norm() <= goal) return true;
+    }
+    return false;
+}
+
+template <int Dim>
+bool Equilibrium<Dim>::newton_step(double accuracy, bool& smooth) {
+    tangent_.shift(0);
+    if (factorised_ && conjugate_gradients(accuracy, most_iterations)) return true;
+    for (double shift = 0; shift <= last_shift; shift = std::max(first_shift, next_shift * shift)) {
+        tangent_.shift(shift);
+        factorised_ = factorise();
+        if (!factorised_) continue;
+        if (shift > 0) smooth = false;
+        conjugate_gradients(accuracy, most_iterations_when_new);
+        return step_.allFinite() && step_.dot(residual_) > 0;
+    }
+    return false;
+}
+
+/// Goes along the Newton step as far as the potential energy falls.
+template <int Dim>
+bool Equilibrium<Dim>::search_along_step(Model<Dim>& model, ElasticLaw<Dim>& law,
+                                         const std::vector<Vec<Dim>>& applied) {
+    std::vector<Vec<Dim>>& u = model.particles.displacement;
+    const std::vector<Vec<Dim>> start = u;
+    double parts = 0;
+    const auto potential = [&] {
+        const double elastic = law.energy(model), work = dot<Dim>(applied, u);
+        parts = std::max({parts, elastic, std::abs(work)});
+        return elastic - work;
+    };
+    const double before = potential(), slope = residual_.dot(step_);
+    double length = 1;
+    for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
+        for (int i = 0; i < model.particles.count(); ++i)
+            u[i] = start[i] + length * step_.segment<Dim>(Dim * i);
+        // The slack is rounding: near the minimum the energy no longer tells where it lies.
+        if (potential() <= before - 1e-4 * length * slope + 1e-12 * parts) return true;
+    }
+    u = start;
+    return false;
+}
+
+template <int Dim>
+Settled Equilibrium<Dim>::find(Model<Dim>& model, ElasticLaw<Dim>& law, const std::vector<Vec<Dim>>& applied,
+                               const std::vector<Vec<Dim>>& moved) {
+    std::vector<Vec<Dim>>& u = model.particles.displacement;
+    const std::vector<Vec<Dim>> start = u;
+    const int n = model.particles.count();
+    Settled settled;
+    const auto give_up = [&] {
+        u = start;
+        law.forces(model);
+        return settled;
+    };
+    tangent_.update(model);
+    law.forces(model);
+    balance(model, applied);
+    if (!moved.empty()) {
+        // The free particles follow at once, as they would in a linear body: held ones moved alone would tear
+        // at their neighbours.
+        Eigen::VectorXd motion(Dim * n), pull;
+        for (int i = 0; i < n; ++i) motion.segment<Dim>(Dim * i) = moved[i];
+        tangent_.shift(0);
+        tangent_.multiply(motion, pull);
+        for (int k = 0; k < Dim * n; ++k)
+            if (!held_[k / Dim][k % Dim]) residual_[k] -= pull[k];
+        if (residual_.isZero(0))
+            step_.setZero(Dim * n);
+        else if (!newton_step(1e-6, settled.smooth))
+            return give_up();
+        for (int i = 0; i < n; ++i) u[i] += moved[i] + step_.segment<Dim>(Dim * i);
+        law.forces(model);
+        balance(model, applied);
+        tangent_.update(model);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    int stalled = 0;
+    for (;; ++settled.newton_steps) {
+        const double norm = residual_.norm();
+        settled.residual = scale_ > 0 ? norm / scale_ : 0;
+        if (!std::isfinite(norm)) return give_up();
+        stalled = norm < 0.5 * least ? 0 : stalled + 1;
+        least = std::min(least, norm);
+        // What no longer shrinks and is small has met rounding in a way that the floor does not foresee.
+        if (norm <= std::max(tolerance * scale_, floor_) || (stalled > 2 && norm <= 1e3 * tolerance * scale_))
+            break;
+        if (settled.newton_steps == most_newton_steps) return give_up();
+        const double share = std::min(1.0, norm / scale_);
+        const double accuracy = std::clamp(share, std::min(0.3 * tolerance / share, 1e-2), 1e-2);
+        if (!newton_step(accuracy, settled.smooth) || !search_along_step(model, law, applied))
+            return give_up();
+        for (int i = 0; i < n; ++i)
+            if (!((u[i] - start[i]).cwiseAbs().maxCoeff() <= flight * extent_)) return give_up();
+        law.forces(model);
+        balance(model, applied);
+        tangent_.update(model);
+    }
+    settled.found = true;
+    return settled;
+}
+
+template std::vector<std::array<bool, 3>> held_components<2>(int, const Physics&);
+template class Equilibrium<2>;
+
+}  // namespace hibi
