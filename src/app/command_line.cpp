@@ -270,6 +270,9 @@ void add_verify(CLI::App& app, int& status) {
         app.add_subcommand("verify", "Accuracy and speed, against answers that are known without particles");
     const auto o = options_of<VerifyOptions>();
     verify->add_option("--case", o->cases, "only this case; may be repeated")->allow_extra_args(false);
+    verify->add_option("--variant", o->variant, "default or thesis, of elasticity (default: both)")
+        ->check(CLI::IsMember({"default", "thesis"}))
+        ->type_name("TEXT");
     verify->add_flag("--list", o->list, "list the cases");
     verify->add_flag("--quick", o->quick, "coarse resolutions only: less than a minute on two cores");
     verify->add_option("--goals", o->goals, "multiply the errors that are allowed by this")

@@ -65,6 +65,8 @@ VerifyRun observe(Scene scene, int observations, VerifyRow& row) {
     return run;
 }
 
+const char* name_of(Elasticity variant) { return variant == Elasticity::thesis ? "thesis" : "default"; }
+
 std::vector<const VerifyCase*> chosen_cases(const std::vector<std::string>& ids) {
     std::vector<const VerifyCase*> chosen;
     std::vector<std::string> known;
@@ -94,6 +96,7 @@ int print_list() {
 std::string command_of(const VerifyOptions& options) {
     std::vector<std::string> words{"hibi", "verify"};
     for (const std::string& id : options.cases) words.insert(words.end(), {"--case", id});
+    if (!options.variant.empty()) words.insert(words.end(), {"--variant", options.variant});
     if (options.quick) words.push_back("--quick");
     if (options.goals != 1) words.insert(words.end(), {"--goals", fmt::format("{}", options.goals)});
     words.insert(words.end(), {"-o", options.folder.string()});
@@ -122,7 +125,7 @@ VerifyRow verify_row(const VerifyCase& c, const VerifyResolution& resolution, El
     VerifyRow row{.id = c.id,
                   .title = c.title,
                   .group = c.group,
-                  .variant = thesis ? "thesis" : "default",
+                  .variant = name_of(variant),
                   .scene = c.scene,
                   .parameter = c.parameter,
                   .resolution = resolution.value,
@@ -142,6 +145,7 @@ VerifyRow verify_row(const VerifyCase& c, const VerifyResolution& resolution, El
                 scene.run.statics.reset();
                 scene.damping = DampingSpec{.damping = {.rate = {}, .ratio = 1}, .until = {}};
             }
+            row.method = scene.run.statics ? "static" : "explicit";
             runs.push_back(observe(std::move(scene), c.observations, row));
         }
         // The error shrinks with the time step where that is what is refined.
@@ -170,12 +174,14 @@ int verify_command(const VerifyOptions& options) {
     };
     std::vector<Task> tasks;
     for (const VerifyCase* c : cases)
-        for (const Elasticity variant : {Elasticity::moment_matched, Elasticity::thesis})
+        for (const Elasticity variant : {Elasticity::moment_matched, Elasticity::thesis}) {
+            if (!options.variant.empty() && options.variant != name_of(variant)) continue;
             for (VerifyResolution r : c->resolutions) {
                 if ((options.quick && !r.quick) || (variant == Elasticity::thesis && !r.thesis)) continue;
                 if (r.goal) *r.goal *= options.goals;
                 tasks.push_back({c, r, variant});
             }
+        }
     // One after the other, each with all threads: the times are those of `hibi run`.
     std::vector<VerifyRow> rows;
     {

@@ -10,6 +10,7 @@ namespace hibi {
 
 struct VerifyOptions {
     std::vector<std::string> cases{};  ///< by id; empty: all
+    std::string variant{};             ///< "default" or "thesis"; empty: both
     bool quick = false;                ///< coarse resolutions only
     bool list = false;                 ///< print the cases instead
     double goals = 1;                  ///< goals are multiplied by this

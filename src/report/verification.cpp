@@ -43,7 +43,8 @@ std::optional<bool> VerifyRow::pass() const {
 }
 
 double VerifyRow::particle_steps_per_second() const {
-    return solve_seconds > 0 ? particles * static_cast<double>(steps) / solve_seconds : 0;
+    return method == "explicit" && solve_seconds > 0 ? particles * static_cast<double>(steps) / solve_seconds
+                                                     : 0;
 }
 
 std::optional<double> observed_order(const std::vector<VerifyRow>& rows, const std::string& id,
@@ -87,6 +88,10 @@ std::string order_text(const std::vector<VerifyRow>& rows, const VerifyRow& row)
     return row.failure.empty() && row.error <= rounding ? "rounding" : "-";
 }
 
+std::string speed_text(const VerifyRow& row) {
+    return row.method == "static" ? "static" : fmt::format("{:.2f}", row.particle_steps_per_second() / 1e6);
+}
+
 const std::vector<std::string>& table_head() {
     static const std::vector<std::string> head{"case",    "variant", "resolution", "particles",
                                                "error",   "goal",    "",           "order",
@@ -107,7 +112,7 @@ std::vector<std::string> cells_of(const std::vector<VerifyRow>& rows, std::size_
             first ? order_text(rows, row) : "",
             fmt::format("{:.2f}", row.seconds),
             fmt::format("{:.2f}", row.cpu_seconds),
-            row.steps > 0 ? fmt::format("{:.2f}", row.particle_steps_per_second() / 1e6) : "-"};
+            speed_text(row)};
 }
 
 }  // namespace
@@ -149,6 +154,7 @@ std::string verification_json(const std::vector<VerifyRow>& rows) {
                         {"measured", value_or_null(row.measured)},
                         {"reference", value_or_null(row.reference)},
                         {"order", value_or_null(observed_order(rows, row.id, row.variant))},
+                        {"method", row.method},
                         {"steps", row.steps},
                         {"solve_seconds", row.solve_seconds},
                         {"cpu_seconds", row.cpu_seconds},
@@ -160,7 +166,8 @@ std::string verification_json(const std::vector<VerifyRow>& rows) {
 std::string verification_csv(const std::vector<VerifyRow>& rows, const std::string& comment) {
     std::string text = fmt::format(
         "# seconds (s), error and goal (-), spacing (m; of factor: -), measured and reference in unit; {}\n"
-        "case,variant,parameter,resolution,spacing,particles,steps,quantity,unit,measured,reference,error,"
+        "case,variant,parameter,resolution,spacing,particles,method,steps,quantity,unit,measured,reference,"
+        "error,"
         "goal,pass,"
         "order,seconds,solve_seconds,cpu_seconds,particle_steps_per_second,failure\n",
         comment);
@@ -171,8 +178,8 @@ std::string verification_csv(const std::vector<VerifyRow>& rows, const std::stri
         std::ranges::replace(failure, ',', ';');
         text += fmt::format(
             "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.id, row.variant,
-            row.parameter, row.resolution, row.spacing, row.particles, row.steps, row.quantity, row.unit,
-            row.measured, row.reference, row.error, row.goal ? fmt::format("{}", *row.goal) : "",
+            row.parameter, row.resolution, row.spacing, row.particles, row.method, row.steps, row.quantity,
+            row.unit, row.measured, row.reference, row.error, row.goal ? fmt::format("{}", *row.goal) : "",
             pass ? (*pass ? "true" : "false") : "", order ? fmt::format("{}", *order) : "", row.seconds,
             row.solve_seconds, row.cpu_seconds, row.particle_steps_per_second(), failure);
     }
@@ -246,7 +253,7 @@ std::string row_html(const std::vector<VerifyRow>& rows, std::size_t k) {
     text += !pass ? cell("") : *pass ? cell("reached", "reached") : cell("missed", "missed");
     text += cell(format_si(row.seconds, "s"));
     text += cell(fmt::format("{}", row.particles));
-    text += cell(row.steps > 0 ? fmt::format("{:.2f}", row.particle_steps_per_second() / 1e6) : "");
+    text += cell(speed_text(row));
     return text + "</tr>\n";
 }
 
@@ -298,6 +305,8 @@ std::string verification_page(const std::vector<VerifyRow>& rows, const VerifyCo
         "<h2>How it was made</h2>\n<p>The runs were made one after the other, each with {} thread{}; models "
         "of fewer than "
         "4096 particles use one. Time is that of a whole run: reading the scene, building it, and all steps. "
+        "Where the method is static, equilibrium is solved for; the thesis variant comes to rest in damped "
+        "motion instead. "
         "In all "
         "{}{}.</p>\n",
         conditions.threads, conditions.threads == 1 ? "" : "s", format_si(conditions.seconds, "s"),

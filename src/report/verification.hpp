@@ -18,8 +18,9 @@ struct VerifyRow {
     double resolution = 0;         ///< its value
     double spacing = 0;            ///< of the particles (m), or whatever the error shrinks with
     int particles = 0;
-    std::int64_t steps = 0;
-    std::string quantity, unit;  ///< what is measured; unit: SI symbol
+    std::string method = "explicit";  ///< or "static"
+    std::int64_t steps = 0;           ///< in time, or of the load
+    std::string quantity, unit;       ///< what is measured; unit: SI symbol
     double measured = 0, reference = 0;
     double error = 0;              ///< relative to the reference, or as the case says; never negative
     std::string reference_text{};  ///< where the reference is from
@@ -29,6 +30,7 @@ struct VerifyRow {
 
     /// Nothing where there is no goal.
     std::optional<bool> pass() const;
+    /// Of an explicit run; 0 for a static one, whose steps are another thing.
     double particle_steps_per_second() const;
 };
 

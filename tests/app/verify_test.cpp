@@ -77,8 +77,10 @@ TEST(Verify, WritesItsFilesAndTellsAMissedGoal) {
     EXPECT_EQ(list.size(), 6u) << "three resolutions of two variants";
     EXPECT_EQ(list[1]["pass"], true);
 
+    options.variant = "default";
     options.goals = 1e-9;
     EXPECT_EQ(verify_command(options), 1);
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(options.folder / "verify.json")).size(), 3u);
     options.cases = {"bar_waves"};
     EXPECT_THROW(verify_command(options), std::invalid_argument);
 }

@@ -45,6 +45,9 @@ TEST(Verification, PassesWhereTheErrorIsWithinItsGoal) {
     failed.failure = "blew up";
     EXPECT_EQ(failed.pass(), std::optional(false));
     EXPECT_DOUBLE_EQ(rows[0].particle_steps_per_second(), 400000);
+    VerifyRow at_rest = rows[0];
+    at_rest.method = "static";
+    EXPECT_EQ(at_rest.particle_steps_per_second(), 0);
     EXPECT_EQ(verification_verdict(rows), "1 of 2 goals missed: beam at rows = 20.");
     EXPECT_EQ(verification_verdict({rows[0]}), "All 1 goals reached.");
 }
@@ -76,7 +79,7 @@ TEST(Verification, JsonHoldsWhatScriptsRelyOn) {
 TEST(Verification, CsvHasALineForEachRun) {
     const std::string csv = verification_csv(two_variants(), "hibi");
     EXPECT_EQ(std::ranges::count(csv, '\n'), 6);
-    EXPECT_NE(csv.find("beam,default,rows,20,0.05,100,2000,deflection,m,1.0025,1,0.0025,0.002,false,2"),
+    EXPECT_NE(csv.find("beam,default,rows,20,0.05,100,explicit,2000,deflection,m,1.0025,1,0.0025,0.002,false,2"),
               std::string::npos)
         << csv;
 }
