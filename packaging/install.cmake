@@ -28,11 +28,12 @@ install(FILES ${written}/hibi.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/ven
 # The scenes name the schema where it lies then.
 foreach(scene IN LISTS HIBI_SCENES)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scene})
-    get_filename_component(name ${scene} NAME)
+    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR} ${scene})
+    get_filename_component(folder ${name} DIRECTORY)
     file(READ ${scene} text)
-    string(REPLACE "#:schema ../build/release/scene.schema.json" "#:schema ../scene.schema.json" text "${text}")
-    file(GENERATE OUTPUT ${written}/packaging/scenes/${name} CONTENT "${text}")
-    install(FILES ${written}/packaging/scenes/${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/hibi/scenes)
+    string(REPLACE "../build/release/scene.schema.json" "../scene.schema.json" text "${text}")
+    file(GENERATE OUTPUT ${written}/packaging/${name} CONTENT "${text}")
+    install(FILES ${written}/packaging/${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/hibi/${folder})
 endforeach()
 
 # Licences that ask to be handed on with what is compiled from headers and fonts.

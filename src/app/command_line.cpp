@@ -19,6 +19,7 @@
 #include "app/report.hpp"
 #include "app/reproduce.hpp"
 #include "app/run.hpp"
+#include "app/verify.hpp"
 #include "base/parallel.hpp"
 #include "film/encoder.hpp"
 #include "record/provenance.hpp"
@@ -37,6 +38,7 @@ Examples:
   hibi preview scene.toml -o setup.png         supports, loads and notches in one picture
   hibi render out/bending_fine                 draw again from the recorded states
   hibi reproduce figure.png                    the command that made it
+  hibi verify --quick                          how accurate it is, and how fast
   hibi new my_scene.toml                       a commented scene to start from
 
 Exit status: 0 done, 1 it failed, 2 the input is wrong, 4 done, but the energy balance is off by more than 2 %.
@@ -263,6 +265,26 @@ void add_converge(CLI::App& app, int& status) {
     converge->callback([o, &status] { status = converge_command(*o); });
 }
 
+void add_verify(CLI::App& app, int& status) {
+    Command* verify =
+        app.add_subcommand("verify", "Accuracy and speed, against answers that are known without particles");
+    const auto o = options_of<VerifyOptions>();
+    verify->add_option("--case", o->cases, "only this case; may be repeated")->allow_extra_args(false);
+    verify->add_option("--variant", o->variant, "default or thesis, of elasticity (default: both)")
+        ->check(CLI::IsMember({"default", "thesis"}))
+        ->type_name("TEXT");
+    verify->add_flag("--list", o->list, "list the cases");
+    verify->add_flag("--quick", o->quick, "coarse resolutions only: less than a minute on two cores");
+    verify->add_option("--goals", o->goals, "multiply the errors that are allowed by this")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    verify->add_option("-o,--output", o->folder, "folder to write to")->capture_default_str();
+    verify->add_flag("--json", o->json, "print verify.json instead of the table");
+    add_threads(*verify);
+    add_quiet(*verify, o->quiet);
+    verify->callback([o, &status] { status = verify_command(*o); });
+}
+
 void add_check(CLI::App& app, int& status) {
     Command* check =
         app.add_subcommand("check", "Read a scene and say what would be modelled; nothing is run");
@@ -347,9 +369,9 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add :
-         {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep, add_converge,
-          add_check, add_preview, add_new, add_reproduce, add_schema, add_completion, add_manual, add_doctor})
+    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep,
+                           add_converge, add_verify, add_check, add_preview, add_new, add_reproduce,
+                           add_schema, add_completion, add_manual, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help

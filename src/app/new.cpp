@@ -80,7 +80,14 @@ std::string title_of(const std::string& text) {
 int new_command(const NewOptions& options) {
     const auto& [name, from, list] = options;
     if (list) {
-        for (const auto& [scene, text] : built_in_scenes()) fmt::print("{:<16} {}\n", scene, title_of(text));
+        bool verification = false;
+        for (const auto& [scene, text] : built_in_scenes()) {
+            if (!verification && scene.starts_with("verify/")) {
+                verification = true;
+                fmt::print("\nThose of hibi verify, whose answers are known:\n");
+            }
+            fmt::print("{:<{}} {}\n", scene, verification ? 32 : 24, title_of(text));
+        }
         return 0;
     }
     std::string text = starter;

@@ -5,7 +5,8 @@
 
 namespace hibi {
 
-/// The scenes that come with the program, by name and text, in alphabetical order.
+/// The scenes that come with the program, by name and text, in alphabetical order; then those of `hibi
+/// verify`, whose names begin with "verify/".
 const std::vector<std::pair<std::string, std::string>>& built_in_scenes();
 
 struct NewOptions {

@@ -95,26 +95,6 @@ std::string command_of(const RunOptions& options, const fs::path& folder) {
     return shell_command(words);
 }
 
-/// What the scene ties to a moment: the end of damping, the release of a load.
-void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simulation) {
-    const auto reached = [&](const std::optional<Moment>& moment) {
-        if (!moment) return false;
-        const std::optional<double> time = events.time_of(*moment);
-        return time && simulation.time() >= *time;
-    };
-    if (scene.damping && reached(scene.damping->until)) simulation.stop_damping();
-    for (std::size_t l = 0; l < scene.loads.size(); ++l)
-        if (reached(scene.loads[l].until)) simulation.release(static_cast<int>(l));
-}
-
-bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
-    if (time >= scene.run.max_time) return true;
-    if (!scene.run.until) return false;
-    if (scene.run.until->event == EventName::peak_load && !watch.peak_confirmed()) return false;
-    const std::optional<double> end = watch.events().time_of(*scene.run.until);
-    return end && time >= *end;
-}
-
 /// The particle that moves fastest: where a run goes wrong.
 std::string fastest(const Simulation<2>& simulation) {
     const std::vector<Vec<2>>& v = simulation.model().particles.velocity;
@@ -266,6 +246,25 @@ void print_results(const RunSummary& s, const fs::path& folder, const RunOptions
 }
 
 }  // namespace
+
+void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simulation) {
+    const auto reached = [&](const std::optional<Moment>& moment) {
+        if (!moment) return false;
+        const std::optional<double> time = events.time_of(*moment);
+        return time && simulation.time() >= *time;
+    };
+    if (scene.damping && reached(scene.damping->until)) simulation.stop_damping();
+    for (std::size_t l = 0; l < scene.loads.size(); ++l)
+        if (reached(scene.loads[l].until)) simulation.release(static_cast<int>(l));
+}
+
+bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
+    if (time >= scene.run.max_time) return true;
+    if (!scene.run.until) return false;
+    if (scene.run.until->event == EventName::peak_load && !watch.peak_confirmed()) return false;
+    const std::optional<double> end = watch.events().time_of(*scene.run.until);
+    return end && time >= *end;
+}
 
 void require_separable(const Scene& scene, const Watch<2>& watch) {
     const auto asks = [](const std::optional<Moment>& m) { return m && m->event == EventName::separation; };

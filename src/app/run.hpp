@@ -32,6 +32,11 @@ void require_separable(const Scene& scene, const Watch<2>& watch);
 /// Throws SceneErrors where the run would take more steps than anyone can wait for.
 void require_steps_that_end(const Scene& scene, const Simulation<2>& simulation);
 
+/// What the scene ties to a moment: the end of damping, the release of a load. After every step.
+void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simulation);
+/// Is the run of that scene at its end?
+bool reached_end(const Scene& scene, const Watch<2>& watch, double time);
+
 struct RenderOptions {
     std::filesystem::path folder;
     std::optional<std::filesystem::path> scene{};  ///< of [view] and [movie]; absent: as recorded

@@ -12,6 +12,7 @@
 #include "image/chart.hpp"
 #include "record/provenance.hpp"
 #include "report/curves.hpp"
+#include "report/html.hpp"
 #include "report/page_files.hpp"
 
 namespace hibi {
@@ -22,27 +23,6 @@ using Json = nlohmann::ordered_json;
 
 /// The cursor needs no more rows than a curve has pixels.
 constexpr std::size_t most_rows = 1500;
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    return result;
-}
 
 std::string data_uri(const std::string& type, const std::string& bytes) {
     return fmt::format("data:{};base64,{}", type, base64(bytes));
@@ -184,24 +164,17 @@ Json run_json(const PageContent& c, const std::vector<Chart>& charts, const std:
 std::string charts_html(const std::vector<Chart>& charts, std::vector<ChartPlace>& places) {
     std::string text;
     for (const Chart& chart : charts) {
-        FigureStyle style{.theme = "light", .width_mm = 85, .text_pt = 9};
-        std::vector<ChartPlace> place;
-        const auto svg_of = [&](const char* theme) {
-            style.theme = theme;
-            place.clear();
-            std::string svg = chart_svg({chart}, style, &place);
-            return svg.substr(svg.find("<svg"));
-        };
-        const std::string dark = svg_of("dark"), light = svg_of("light");
-        const std::string view = light.substr(light.find("viewBox=") + 9);
-        places.push_back(place[0]);
-        const PixelRect& a = place[0].axes;
+        ChartPlace place;
+        const std::string drawn = chart_in_both_themes(chart, 85, &place);
+        const std::string view = drawn.substr(drawn.find("viewBox=") + 9);
+        places.push_back(place);
+        const PixelRect& a = place.axes;
         text += fmt::format(
-            "<figure class=\"chart\"><div class=\"light\">{}</div><div class=\"dark\">{}</div>"
+            "<figure class=\"chart\">{}"
             "<svg class=\"cursor no-print\" viewBox=\"{}\" tabindex=\"0\" role=\"slider\" "
             "aria-label=\"Moment of the run, on the curve {} over {}\" aria-valuenow=\"0\">"
             "<line x1=\"0\" x2=\"0\" y1=\"{:.2f}\" y2=\"{:.2f}\"/>{}</svg></figure>\n",
-            light, dark, view.substr(0, view.find('"')), escaped(chart.y.title), escaped(chart.x.title), a.y,
+            drawn, view.substr(0, view.find('"')), escaped(chart.y.title), escaped(chart.x.title), a.y,
             a.y + a.height, chart.x.unit == "s" ? "" : "<circle cx=\"0\" cy=\"0\" r=\"3.2\"/>");
     }
     return text;
@@ -251,27 +224,10 @@ std::string report_page(const PageContent& c) {
     std::vector<ChartPlace> places;
     const std::string curves = charts_html(charts, places);
 
-    std::string page = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
-    page += fmt::format("<title>{}</title>\n", escaped(s.title));
-    // `hibi reproduce` looks for it at the beginning of the file. No "-->" can occur in it: < and > are
-    // escaped.
-    std::string origin = to_comment(provenance);
-    for (std::size_t at = 0; (at = origin.find('>', at)) != std::string::npos;)
-        origin.replace(at, 1, "\\u003e");
-    page += "<!-- " + origin + " -->\n";
-    page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-    page += fmt::format("<meta name=\"generator\" content=\"hibi {}\">\n", escaped(provenance.version));
-    page += "<link rel=\"icon\" href=\"data:,\">\n";  // or a browser asks for one
-    page += fmt::format(
-        "<script>document.documentElement.dataset.theme = "
-        "matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';</script>\n"
-        "<style>\n{}</style>\n</head>\n<body>\n",
-        page_style);
+    std::string page = page_head(s.title, provenance);
     page += fmt::format("<header><div><h1>{}</h1>\n", escaped(s.title));
     if (!c.about.empty()) page += fmt::format("<p class=\"faint\">{}</p>", escaped(c.about));
-    page +=
-        "</div><button id=\"theme\" type=\"button\" aria-label=\"Light or "
-        "dark\">◐</button></header>\n<main>\n";
+    page += "</div>" + theme_button() + "</header>\n<main>\n";
     page += fmt::format("<p class=\"outcome\">{}</p>\n", escaped(outcome(s)));
     if (!s.trusted) page += verdict(s);  // before the film is believed
     page += "<div class=\"stage\"><div>\n" + film_html(c) + "</div>\n";

@@ -93,9 +93,10 @@ TEST(WebPackage, DebianPackageWorksWhereverItIsUnpacked) {
         EXPECT_NE(answer.out.find(needed), std::string::npos) << needed << answer.out;
     for (const char* file :
          {"bin/hibi", "share/hibi/scene.schema.json", "share/hibi/scenes/bending_fine.toml",
-          "share/man/man1/hibi.1.gz", "share/bash-completion/completions/hibi",
-          "share/zsh/vendor-completions/_hibi", "share/fish/vendor_completions.d/hibi.fish",
-          "share/doc/hibi/README.md", "share/doc/hibi/REFERENCE.md", "share/doc/hibi/copyright"})
+          "share/hibi/scenes/verify/bar.toml", "share/man/man1/hibi.1.gz",
+          "share/bash-completion/completions/hibi", "share/zsh/vendor-completions/_hibi",
+          "share/fish/vendor_completions.d/hibi.fish", "share/doc/hibi/README.md",
+          "share/doc/hibi/REFERENCE.md", "share/doc/hibi/copyright"})
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "root/usr" / file)) << file;
 
     ASSERT_EQ(call(in_folder + "root/usr/bin/hibi new mine").status, 0);
@@ -103,7 +104,8 @@ TEST(WebPackage, DebianPackageWorksWhereverItIsUnpacked) {
     EXPECT_EQ(answer.out,
               "#:schema file://" + (folder.path() / "root/usr/share/hibi/scene.schema.json").string() + "\n");
     // Their own first lines lead to the schema.
-    const std::string scene = "root/usr/share/hibi/scenes/bending_fine.toml ";
+    const std::string scene =
+        "root/usr/share/hibi/scenes/bending_fine.toml root/usr/share/hibi/scenes/verify/bar.toml ";
     answer = call(in_folder + HIBI_WEB "/node_modules/.bin/taplo lint --no-auto-config mine.toml " + scene);
     EXPECT_EQ(answer.status, 0) << answer.out;
     answer = call(in_folder + "sed -i 's/^ramp .*/ramp = true/' " + scene +
