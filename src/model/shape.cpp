@@ -60,7 +60,8 @@ template <int Dim>
 bool inside(const Shape<Dim>& shape, const Vec<Dim>& X) {
     return std::visit(Overloaded{
                           [&](const Box<Dim>& s) {
-                              return (X.array() >= s.low.array()).all() && (X.array() <= s.high.array()).all();
+                              return (X.array() >= s.low.array()).all() &&
+                                     (X.array() <= s.high.array()).all();
                           },
                           [&](const Disc<Dim>& s) { return (X - s.centre).norm() <= s.radius; },
                           [&](const Ring<Dim>& s) {

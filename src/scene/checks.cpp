@@ -156,8 +156,9 @@ void check_bodies(const Scene& scene, Problems& problems) {
         const auto* box = std::get_if<Box<2>>(&body.shape.form);
         if (const auto* difference = std::get_if<Difference<2>>(&body.shape.form))
             box = std::get_if<Box<2>>(&difference->parts.front().form);
-        if (box && !body.lattice.is_turned() && problems.fine(path + "/spacing") && problems.fine(path + "/box") &&
-            problems.fine(path + "/shape") && problems.fine(path + "/difference"))
+        if (box && !body.lattice.is_turned() && problems.fine(path + "/spacing") &&
+            problems.fine(path + "/box") && problems.fine(path + "/shape") &&
+            problems.fine(path + "/difference"))
             check_box(*box, spacing, path, problems);
         for (std::size_t k = 0; k < body.bonded_to.size(); ++k) {
             const std::string& other = body.bonded_to[k];

@@ -61,8 +61,7 @@ TEST(Fill, AQuarterTurnOfTheLatticeChangesOnlyTheOrder) {
         const std::vector<Vec<2>> straight = sorted(fill<2>(shape, 0.5)),
                                   turned = sorted(fill<2>(shape, 0.5, {.angle = std::numbers::pi / 2}));
         ASSERT_EQ(straight.size(), turned.size());
-        for (std::size_t i = 0; i < straight.size(); ++i)
-            EXPECT_LE((straight[i] - turned[i]).norm(), 1e-12);
+        for (std::size_t i = 0; i < straight.size(); ++i) EXPECT_LE((straight[i] - turned[i]).norm(), 1e-12);
     }
 }
 

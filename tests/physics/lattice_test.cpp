@@ -18,10 +18,9 @@ class AnyLattice : public testing::TestWithParam<Lattice> {
     Model<2> model = [] {
         Model<2> plate;
         plate.materials = {test::concrete()};
-        add_body<2>(plate, {.name = "plate",
-                            .shape = {Box<2>{{0, 0}, {20, 12}}},
-                            .spacing = 0.5,
-                            .lattice = GetParam()});
+        add_body<2>(
+            plate,
+            {.name = "plate", .shape = {Box<2>{{0, 0}, {20, 12}}}, .spacing = 0.5, .lattice = GetParam()});
         connect<2>(plate, {});
         return plate;
     }();

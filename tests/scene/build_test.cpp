@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "physics/tangent.hpp"
-
 #include "scene/everything.hpp"
 #include "scene/read.hpp"
 
@@ -121,7 +120,8 @@ poissons_ratio = 0.3
 material = "m"
 box = [[0, 0], [40, 10]]
 spacing = 1
-lattice = )scene" + lattice + R"scene(
+lattice = )scene" +
+           lattice + R"scene(
 [[load]]
 face = "right"
 pressure = -1

@@ -15,17 +15,18 @@
 
 namespace hibi::test {
 
-/// A strip of width 1 m, lower left corner at the origin, with a straight crack along x at half its height; unit
-/// stress pulls at the top and at the bottom. E = 1 Pa.
+/// A strip of width 1 m, lower left corner at the origin, with a straight crack along x at half its height;
+/// unit stress pulls at the top and at the bottom. E = 1 Pa.
 struct StripCase {
-    int across = 40;          ///< particles across the width
-    double angle = 0;         ///< of the lattice (degrees)
+    int across = 40;   ///< particles across the width
+    double angle = 0;  ///< of the lattice (degrees)
     double nu = 0.3;
-    double influence = 2.1;   ///< r_e / l0
-    double shift_x = 0;       ///< of the crack's tip (l0)
-    double shift_y = 0.354;   ///< of the crack: halfway between two planes of particles at 0 and at 45 degrees (l0)
-    bool centre = false;      ///< a crack of 0.3 of the width in its middle instead of at the left edge
-    double height = 2;        ///< (m)
+    double influence = 2.1;  ///< r_e / l0
+    double shift_x = 0;      ///< of the crack's tip (l0)
+    double shift_y =
+        0.354;  ///< of the crack: halfway between two planes of particles at 0 and at 45 degrees (l0)
+    bool centre = false;  ///< a crack of 0.3 of the width in its middle instead of at the left edge
+    double height = 2;    ///< (m)
     double jitter = 0;
     std::uint64_t seed = 1;
     Assumption assumption = Assumption::plane_stress;
@@ -34,16 +35,16 @@ struct StripCase {
     /// From the edge, or half of a centre crack (m).
     double crack() const { return (centre ? 0.15 : 0.3) + shift_x * spacing(); }
     Vec<2> tip() const { return {(centre ? 0.5 : 0) + crack(), height / 2 + shift_y * spacing()}; }
-    /// K_I / sigma (sqrt m). Tada, Paris, Irwin, The Stress Analysis of Cracks Handbook: single edge notch, least
-    /// squares fit of Gross 1964 and Brown 1966 (0.5 % for a/b <= 0.6, height at least twice the width); centre
-    /// crack, secant of Feddersen with Tada's factor (0.1 %).
+    /// K_I / sigma (sqrt m). Tada, Paris, Irwin, The Stress Analysis of Cracks Handbook: single edge notch,
+    /// least squares fit of Gross 1964 and Brown 1966 (0.5 % for a/b <= 0.6, height at least twice the
+    /// width); centre crack, secant of Feddersen with Tada's factor (0.1 %).
     double intensity() const {
         const double pi = std::numbers::pi, a = crack();
         const double ratio = centre ? 2 * a : a;
-        const double F =
-            centre ? (1 - 0.025 * std::pow(ratio, 2) + 0.06 * std::pow(ratio, 4)) / std::sqrt(std::cos(pi * ratio / 2))
-                   : 1.12 - 0.231 * ratio + 10.55 * std::pow(ratio, 2) - 21.72 * std::pow(ratio, 3) +
-                         30.39 * std::pow(ratio, 4);
+        const double F = centre ? (1 - 0.025 * std::pow(ratio, 2) + 0.06 * std::pow(ratio, 4)) /
+                                      std::sqrt(std::cos(pi * ratio / 2))
+                                : 1.12 - 0.231 * ratio + 10.55 * std::pow(ratio, 2) -
+                                      21.72 * std::pow(ratio, 3) + 30.39 * std::pow(ratio, 4);
         return F * std::sqrt(pi * a);
     }
 };
@@ -62,8 +63,8 @@ inline Model<2> cracked_strip(const StripCase& c) {
     return model;
 }
 
-/// Second derivative of the energy of particle p by the displacements of `members`, p first, then the other ends of
-/// its bonds (N/m); broken bonds carry nothing. The slow, obvious counterpart of tangent_at_rest.
+/// Second derivative of the energy of particle p by the displacements of `members`, p first, then the other
+/// ends of its bonds (N/m); broken bonds carry nothing. The slow, obvious counterpart of tangent_at_rest.
 inline Eigen::MatrixXd stiffness_of_particle(const Model<2>& model, const BondWeights& weights, int p,
                                              std::vector<int>& members) {
     const Bonds& bonds = model.bonds;
@@ -100,11 +101,13 @@ inline Eigen::MatrixXd stiffness_of_particle(const Model<2>& model, const BondWe
     return K + Z.transpose() * M.asDiagonal() * Z;
 }
 
-/// Breaking bond by bond, the load set anew each time: small strains, no dynamics. The body beyond a few spacings
-/// from the crack's tip never changes, so it enters once, as the compliance of the particles near the tip.
+/// Breaking bond by bond, the load set anew each time: small strains, no dynamics. The body beyond a few
+/// spacings from the crack's tip never changes, so it enters once, as the compliance of the particles near
+/// the tip.
 class CrackGrowth {
  public:
-    /// Particles less than `ahead` spacings before, `behind` behind and `beside` beside the tip may be touched.
+    /// Particles less than `ahead` spacings before, `behind` behind and `beside` beside the tip may be
+    /// touched.
     explicit CrackGrowth(const StripCase& c, double ahead = 9, double behind = 7, double beside = 8)
         : case_(c), model_(cracked_strip(c)), weights_(moment_matched_weights(model_)) {
         const Particles<2>& particles = model_.particles;
@@ -142,12 +145,12 @@ class CrackGrowth {
 
     struct Break {
         int bond;
-        double load;     ///< at which it breaks, as K_I of the initial crack (Pa sqrt m)
-        Vec<2> middle;   ///< of the bond, from the initial tip (l0)
+        double load;    ///< at which it breaks, as K_I of the initial crack (Pa sqrt m)
+        Vec<2> middle;  ///< of the bond, from the initial tip (l0)
     };
 
-    /// Breaks what reaches its limit first, again and again, until the crack has grown by `growth` spacings or a
-    /// no bond is left that may. `limit` gives the strain at which a bond of that length (m) breaks.
+    /// Breaks what reaches its limit first, again and again, until the crack has grown by `growth` spacings
+    /// or a no bond is left that may. `limit` gives the strain at which a bond of that length (m) breaks.
     std::vector<Break> grow(const std::function<double(double)>& limit, double growth) {
         Bonds& bonds = model_.bonds;
         bonds.broken_at.assign(bonds.broken_at.size(), Bonds::intact);
@@ -186,8 +189,8 @@ class CrackGrowth {
         }
     }
 
-    /// Displacements of the particles near the tip at unit stress with the bonds broken as they are now (m): the
-    /// quick way, and by solving the whole strip again.
+    /// Displacements of the particles near the tip at unit stress with the bonds broken as they are now (m):
+    /// the quick way, and by solving the whole strip again.
     Eigen::VectorXd quick() const { return changed(change_); }
     Eigen::VectorXd slow() const { return restricted(factors()->solve(load_)); }
 
@@ -222,7 +225,8 @@ class CrackGrowth {
     }
     double strain(const Eigen::VectorXd& u, int b) const {
         const Vec<2> r0 = bond_vector(b);
-        const Vec<2> du = u.segment<2>(2 * near_[model_.bonds.second[b]]) - u.segment<2>(2 * near_[model_.bonds.first[b]]);
+        const Vec<2> du =
+            u.segment<2>(2 * near_[model_.bonds.second[b]]) - u.segment<2>(2 * near_[model_.bonds.first[b]]);
         return du.dot(r0) / r0.squaredNorm();
     }
     /// u = u0 - F change u, with F the compliance: solved for the few rows in which `change` is not zero.
@@ -246,9 +250,11 @@ class CrackGrowth {
         const Eigen::MatrixXd K = stiffness_of_particle(model_, weights_, p, members);
         for (std::size_t a = 0; a < members.size(); ++a)
             for (std::size_t b = 0; b < members.size(); ++b)
-                change_.block<2, 2>(2 * near_[members[a]], 2 * near_[members[b]]) += sign * K.block<2, 2>(2 * a, 2 * b);
+                change_.block<2, 2>(2 * near_[members[a]], 2 * near_[members[b]]) +=
+                    sign * K.block<2, 2>(2 * a, 2 * b);
     }
-    /// Three degrees of freedom at the right edge, far from the crack, that hold the strip without straining it.
+    /// Three degrees of freedom at the right edge, far from the crack, that hold the strip without straining
+    /// it.
     std::vector<int> pinned() const {
         const auto nearest = [&](const Vec<2>& place) {
             int best = 0;
