@@ -11,6 +11,7 @@
 #include "app/quasi_static.hpp"
 #include "app/run.hpp"
 #include "base/units.hpp"
+#include "physics/damage.hpp"
 #include "physics/simulation.hpp"
 
 namespace hibi {
@@ -100,6 +101,12 @@ std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, con
                 scene.bodies[b].name, 100 * built.lattice_area_error[b]));
     const bool breaks = std::any_of(built.model.materials.begin(), built.model.materials.end(),
                                     [](const Material& m) { return m.can_break(); });
+    for (const Material& m : scene.materials)
+        if (m.fracture_energy && !fracture_is_calibrated(m, scene.assumption, scene.influence))
+            notes.push_back(fmt::format(
+                "[material.{}] fracture_energy: its limit is calibrated for influence 1.5 to 3.1 and "
+                "poissons_ratio 0 to 0.45; the nearest calibrated value is used",
+                m.name));
     int alone = 0;
     for (int i = 0; i < built.model.particles.count(); ++i)
         alone += built.model.bonds.start[i] == built.model.bonds.start[i + 1];

@@ -51,7 +51,11 @@ std::vector<StudyPoint> sorted_points(const ConvergeOptions& options, const Grid
 
 Scene with_other_criterion(Scene scene, double spacing) {
     for (Material& m : scene.materials) {
-        const double strain_of_one = fracture_strain(1, m.youngs_modulus, spacing);  // limit for Gc = 1 J/m^2
+        Material unit = m;
+        unit.fracture_energy = 1;
+        // Limit of the bonds between nearest neighbours for Gc = 1 J/m^2: in an even pull they break first.
+        const double strain_of_one =
+            fracture_strain(unit, scene.assumption, scene.influence, spacing, spacing);
         if (m.break_strain) {
             m.fracture_energy = std::pow(*m.break_strain / strain_of_one, 2);
             m.break_strain.reset();

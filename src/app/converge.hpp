@@ -18,7 +18,8 @@ struct ConvergeOptions {
 int converge_command(ConvergeOptions options);
 
 /// The scene with the other criterion in every material that breaks: break_strain instead of fracture_energy
-/// or the other way round, such that both are the same at the given spacing (m).
+/// or the other way round, such that at the given spacing (m) both give the bonds of nearest neighbours the
+/// same limit.
 Scene with_other_criterion(Scene scene, double spacing);
 
 }  // namespace hibi

@@ -38,7 +38,7 @@ bool crosses(const Notch<2>& notch, const Vec<2>& a, const Vec<2>& b) {
 
 template <int Dim>
 void add_body(Model<Dim>& model, Body<Dim> body) {
-    const std::vector<Vec<Dim>> points = fill(body.shape, body.spacing);
+    const std::vector<Vec<Dim>> points = fill(body.shape, body.spacing, body.lattice);
     Particles<Dim>& particles = model.particles;
     body.begin = particles.count();
     body.end = body.begin + static_cast<int>(points.size());

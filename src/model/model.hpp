@@ -24,6 +24,7 @@ struct Body {
     std::string name;
     Shape<Dim> shape;
     double spacing = 0;             ///< l0 (m)
+    Lattice lattice{};
     int material = 0;               ///< index into Model::materials
     std::vector<int> bonded_to{};   ///< bodies with a lower index and the same spacing that bonds reach across to
     int begin = 0, end = 0;         ///< its particles, once filled

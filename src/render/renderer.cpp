@@ -27,6 +27,9 @@ constexpr float sprite_margin = 2;  ///< of a sprite beyond its disc, both sides
 constexpr double least_surface_spacing = 4;
 constexpr double least_line_spacing = 12;
 
+// Longest bond between neighbours (spacings): below the diagonal of the lattice, above most of a jittered one.
+constexpr double nearest_bond = 1.4;
+
 // How much darker than its particles a body is between them, also where a theme has no rims.
 constexpr float least_gap = 0.2f;
 
@@ -165,7 +168,7 @@ struct Renderer::Impl {
         const auto nearest = [&](const DrawnBond& b) {
             const double length =
                 (topology.reference_position[b.second] - topology.reference_position[b.first]).norm();
-            return length < 0.6 * (topology.spacing[b.first] + topology.spacing[b.second]);
+            return length < nearest_bond / 2 * (topology.spacing[b.first] + topology.spacing[b.second]);
         };
         const auto others = std::ranges::stable_partition(bonds, nearest);
         upload(bond_table, bonds);

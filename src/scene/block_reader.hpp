@@ -31,6 +31,7 @@ class BlockReader {
 
     const std::string& path() const { return path_; }
     std::string path(const std::string& key) const { return path_ + "/" + key; }
+    const std::string& name() const { return block_.name; }
     bool has(const std::string& key) const { return table_.find(key) != nullptr; }
     void fail(const std::string& key, const std::string& message, const std::string& hint = {});
 

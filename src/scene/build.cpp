@@ -23,7 +23,7 @@ bool geometry_is_fine(const Scene& scene, const Problems& problems) {
         return false;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
         for (const char* key :
-             {"shape", "box", "disc", "ring", "polygon", "difference", "spacing", "bonded_to"})
+             {"shape", "box", "disc", "ring", "polygon", "difference", "spacing", "lattice", "bonded_to"})
             if (problems.concerns(fmt::format("body/{}/{}", b, key))) return false;
     return true;
 }
@@ -74,6 +74,7 @@ bool add_bodies(const Scene& scene, Built<2>& built, Problems& problems) {
         body.name = spec.name;
         body.shape = spec.shape;
         body.spacing = spacing_of(spec);
+        body.lattice = spec.lattice;
         body.material = index_of(scene.materials, spec.material);
         for (const std::string& other : spec.bonded_to)
             body.bonded_to.push_back(index_of(scene.bodies, other));

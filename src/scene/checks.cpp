@@ -12,6 +12,9 @@ namespace hibi {
 
 namespace {
 
+/// Two neighbours then stay at least a fifth of a spacing apart (spacings).
+constexpr double most_jitter = 0.4;
+
 /// Reports a value that is not above zero.
 void want_positive(Problems& problems, const std::string& path, const std::string& label, double value,
                    const std::string& hint = {}) {
@@ -38,7 +41,10 @@ void check_model(const Scene& scene, Problems& problems) {
                      "the default is 2.1");
         return;
     }
-    for (int i = 1; i <= 8; ++i)
+    // Where all is jittered, hardly a pair is at such a distance.
+    const bool regular = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                     [](const BodySpec& body) { return body.lattice.jitter == 0; });
+    for (int i = 1; regular && i <= 8; ++i)
         for (int j = 0; j <= i; ++j)
             if (std::abs(influence - std::hypot(i, j)) < 1e-6) {
                 problems.add(
@@ -141,11 +147,18 @@ void check_bodies(const Scene& scene, Problems& problems) {
         }
         const double spacing = body.spacing(Vec3::Zero(), 0);
         want_positive(problems, path + "/spacing", "[[body]] spacing", spacing);
+        if (problems.fine(path + "/lattice/jitter") &&
+            !(body.lattice.jitter >= 0 && body.lattice.jitter <= most_jitter))
+            problems.add(path + "/lattice/jitter",
+                         fmt::format("[[body]] lattice jitter needs to be 0 to {}; found {}", most_jitter,
+                                     body.lattice.jitter),
+                         "beyond that two particles could meet");
         const auto* box = std::get_if<Box<2>>(&body.shape.form);
         if (const auto* difference = std::get_if<Difference<2>>(&body.shape.form))
             box = std::get_if<Box<2>>(&difference->parts.front().form);
-        if (box && problems.fine(path + "/spacing") && problems.fine(path + "/box") &&
-            problems.fine(path + "/shape") && problems.fine(path + "/difference"))
+        if (box && !body.lattice.is_turned() && problems.fine(path + "/spacing") &&
+            problems.fine(path + "/box") && problems.fine(path + "/shape") &&
+            problems.fine(path + "/difference"))
             check_box(*box, spacing, path, problems);
         for (std::size_t k = 0; k < body.bonded_to.size(); ++k) {
             const std::string& other = body.bonded_to[k];

@@ -21,6 +21,14 @@ void set(To& to, const std::optional<From>& from) {
     if (from) to = *from;
 }
 
+/// The key `seed` of a block.
+std::optional<std::uint64_t> seed_of(BlockReader& block) {
+    const auto seed = block.integer("seed");
+    if (seed && *seed < 0)
+        block.fail("seed", fmt::format("{} seed needs a whole number, 0 or more", block.name()));
+    return seed ? std::optional(static_cast<std::uint64_t>(*seed)) : std::nullopt;
+}
+
 /// The one [block] of a document, if it is there and is a table.
 std::optional<BlockReader> single(const Value& document, ReadContext& context, const std::string& name) {
     const Value* value = document.find(name);
@@ -82,10 +90,7 @@ void read_materials(const Value& document, ReadContext& context, Scene& scene) {
         if (auto weibull = block.table("weibull")) {
             material.weibull.emplace();
             set(material.weibull->shape, weibull->quantity("shape"));
-            if (const auto seed = weibull->integer("seed")) {
-                if (*seed < 0) weibull->fail("seed", "weibull seed needs a whole number, 0 or more");
-                material.weibull->seed = static_cast<std::uint64_t>(*seed);
-            }
+            set(material.weibull->seed, seed_of(*weibull));
         }
         scene.materials.push_back(material);
     }
@@ -100,6 +105,11 @@ void read_bodies(const Value& document, ReadContext& context, Scene& scene) {
         if (const auto form = block.one_of({"box", "disc", "ring", "polygon", "difference"}, "shape"))
             set(body.shape, read_shape(block, *form));
         set(body.spacing, block.quantity("spacing"));
+        if (auto lattice = block.table("lattice")) {
+            set(body.lattice.angle, lattice->quantity("angle"));
+            set(body.lattice.jitter, lattice->quantity("jitter"));
+            set(body.lattice.seed, seed_of(*lattice));
+        }
         set(body.bonded_to, block.names("bonded_to"));
         if (const auto velocity = block.vector("velocity", false))
             for (int axis = 0; axis < 2; ++axis) body.velocity[axis] = *velocity->at(axis);

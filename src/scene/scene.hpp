@@ -39,6 +39,7 @@ struct BodySpec {
     std::string name, material;
     Shape<2> shape;
     Field spacing;  ///< constant (m)
+    Lattice lattice{};
     std::vector<std::string> bonded_to{};
     std::array<Field, 2> velocity{};  ///< initial (m/s); may vary over x, y
     double spin = 0;                  ///< initial, about the centre of mass (rad/s)

@@ -120,6 +120,9 @@ void write_bodies(Writer& out, const Scene& scene) {
         out.line("material", quote(body.material));
         out.text += std::visit(ShapeWriter{}, body.shape.form) + "\n";
         out.line("spacing", number(body.spacing));
+        if (body.lattice != Lattice{})
+            out.line("lattice", fmt::format("{{ angle = {}, jitter = {}, seed = {} }}", body.lattice.angle,
+                                            body.lattice.jitter, body.lattice.seed));
         out.line("bonded_to", names(body.bonded_to));
         out.line("velocity", fmt::format("[{}, {}]", number(body.velocity[0]), number(body.velocity[1])));
         out.line("spin", body.spin);

@@ -75,8 +75,11 @@ TEST(Converge, TheOtherCriterionHasTheSameLimitAtTheCoarsestSpacing) {
     scene.materials = {{.name = "m", .youngs_modulus = 2.1e8, .break_strain = 0.1}};
     const Scene energy = with_other_criterion(scene, 4);
     ASSERT_TRUE(energy.materials[0].fracture_energy && !energy.materials[0].break_strain);
-    EXPECT_NEAR(fracture_strain(*energy.materials[0].fracture_energy, 2.1e8, 4), 0.1, 1e-12);
-    EXPECT_NEAR(fracture_strain(*energy.materials[0].fracture_energy, 2.1e8, 1), 0.2, 1e-12);
+    const auto limit = [&](double l0) {  // of nearest neighbours
+        return fracture_strain(energy.materials[0], scene.assumption, scene.influence, l0, l0);
+    };
+    EXPECT_NEAR(limit(4), 0.1, 1e-12);
+    EXPECT_NEAR(limit(1), 0.2, 1e-12);
     const Scene back = with_other_criterion(energy, 4);
     EXPECT_NEAR(*back.materials[0].break_strain, 0.1, 1e-12);
     EXPECT_FALSE(back.materials[0].fracture_energy);

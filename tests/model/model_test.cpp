@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -47,6 +48,53 @@ TEST(Fill, PolygonEitherWayRoundAndDifference) {
     EXPECT_FALSE(inside<2>(holed, {2, 2}));
     EXPECT_TRUE(inside<2>(holed, {0.5, 0.5}));
     for (const Vec<2>& p : fill<2>(holed, 0.25)) EXPECT_GT((p - Vec<2>(2, 2)).norm(), 1);
+}
+
+std::vector<Vec<2>> sorted(std::vector<Vec<2>> points) {
+    const auto rounded = [](const Vec<2>& p) {
+        return std::pair{std::llround(1e6 * p.y()), std::llround(1e6 * p.x())};
+    };
+    std::sort(points.begin(), points.end(),
+              [&](const Vec<2>& a, const Vec<2>& b) { return rounded(a) < rounded(b); });
+    return points;
+}
+
+TEST(Fill, AQuarterTurnOfTheLatticeChangesOnlyTheOrder) {
+    for (const Shape<2>& shape : {Shape<2>{Box<2>{{1, 2}, {5.5, 4}}}, Shape<2>{Disc<2>{{3, -1}, 2}}}) {
+        const std::vector<Vec<2>> straight = sorted(fill<2>(shape, 0.5)),
+                                  turned = sorted(fill<2>(shape, 0.5, {.angle = std::numbers::pi / 2}));
+        ASSERT_EQ(straight.size(), turned.size());
+        for (std::size_t i = 0; i < straight.size(); ++i) EXPECT_LE((straight[i] - turned[i]).norm(), 1e-12);
+    }
+}
+
+TEST(Fill, ATurnedLatticeCoversTheAreaAndKeepsItsSpacing) {
+    const Shape<2> box{Box<2>{{0, 0}, {4.03, 2.01}}}, disc{Disc<2>{{0, 0}, 1.5}};
+    for (const Shape<2>& shape : {box, disc}) {
+        for (const double degrees : {15, 30, 45, 77, -20}) {
+            const std::vector<Vec<2>> points =
+                fill<2>(shape, 0.05, {.angle = degrees * std::numbers::pi / 180, .jitter = 0.2});
+            EXPECT_NEAR(0.0025 * static_cast<double>(points.size()) / measure(shape), 1, 0.02) << degrees;
+        }
+    }
+    const std::vector<Vec<2>> points = fill<2>(box, 0.05, {.angle = 0.3});
+    for (const auto& [i, j] : neighbours<2>(points, 0.06))
+        EXPECT_NEAR((points[i] - points[j]).norm(), 0.05, 1e-12);
+}
+
+TEST(Fill, JitterFollowsItsSeedAndTheCellAlone) {
+    const Shape<2> box{Box<2>{{0, 0}, {4, 2}}}, wider{Box<2>{{0, 0}, {6, 3}}};
+    const Lattice jittered{.jitter = 0.2, .seed = 7};
+    const std::vector<Vec<2>> straight = fill<2>(box, 0.5), points = fill<2>(box, 0.5, jittered);
+    EXPECT_EQ(points, fill<2>(box, 0.5, jittered));
+    EXPECT_NE(points, fill<2>(box, 0.5, {.jitter = 0.2, .seed = 8}));
+    double largest = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        largest = std::max(largest, (points[i] - straight[i]).cwiseAbs().maxCoeff());
+    EXPECT_LE(largest, 0.1);
+    EXPECT_GT(largest, 0.08);
+    const std::vector<Vec<2>> more = fill<2>(wider, 0.5, jittered);
+    EXPECT_EQ(points[8], more[12]);  // second row, first column of both
 }
 
 TEST(Neighbours, GridFindsWhatTheDoubleLoopFinds) {

@@ -360,11 +360,31 @@ TEST(Damage, WeibullStrengthsFollowTheirDistributionAndTheirSeed) {
 }
 
 TEST(Damage, FractureEnergyLimitFallsWithTheRootOfTheSpacing) {
-    EXPECT_NEAR(fracture_strain(100, 1e9, 0.01) / fracture_strain(100, 1e9, 0.04), 2, 1e-12);
     Material m = test::concrete();
     m.fracture_energy = 100;
+    const auto limit = [&](double l0, double length) {
+        return fracture_strain(m, Assumption::plane_stress, 2.1, l0, length);
+    };
+    EXPECT_NEAR(limit(0.01, 0.01) / limit(0.04, 0.04), 2, 1e-12);
+    EXPECT_NEAR(limit(0.01, 0.01) / limit(0.01, 0.03), std::pow(2, -0.375), 1e-12);
     const Model<2> model = plate(3, 3, 0.5, m);
-    EXPECT_DOUBLE_EQ(break_strains(model, {}).front(), fracture_strain(100, 2.1e8, 0.5));
+    const std::vector<double> strains = break_strains(model, {});
+    for (int b = 0; b < model.bonds.count(); ++b)
+        EXPECT_DOUBLE_EQ(strains[b], limit(0.5, model.bonds.rest_length[b]));
+}
+
+TEST(Damage, PlaneStrainFractureIsPlaneStressOfTheEquivalentConstants) {
+    Material strain = test::concrete(), stress = strain;
+    strain.fracture_energy = stress.fracture_energy = 100;
+    stress.youngs_modulus /= 1 - 0.3 * 0.3;
+    stress.poissons_ratio = 0.3 / 0.7;
+    EXPECT_NEAR(fracture_strain(strain, Assumption::plane_strain, 2.3, 1, 1),
+                fracture_strain(stress, Assumption::plane_stress, 2.3, 1, 1), 1e-15);
+    strain.poissons_ratio = 0.45;
+    EXPECT_TRUE(fracture_is_calibrated(strain, Assumption::plane_strain, 1.5));
+    EXPECT_FALSE(fracture_is_calibrated(strain, Assumption::plane_strain, 3.5));
+    strain.poissons_ratio = -0.1;
+    EXPECT_FALSE(fracture_is_calibrated(strain, Assumption::plane_strain, 2.1));
 }
 
 TEST(Simulation, MirrorSymmetricSceneStaysSymmetricUpToFirstBreak) {

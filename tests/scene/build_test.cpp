@@ -1,7 +1,10 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/SparseCholesky>
 #include <numeric>
 
+#include "physics/tangent.hpp"
 #include "scene/everything.hpp"
 #include "scene/read.hpp"
 
@@ -105,6 +108,82 @@ TEST(Build, NotchesCutAndAreHandedOnForDrawing) {
     EXPECT_GT(cut.model.bonds_cut, 0);
     EXPECT_EQ(cut.model.bonds.count() + cut.model.bonds_cut, whole.model.bonds.count());
     EXPECT_EQ(cut.notches.size(), 2u);
+}
+
+/// A bar of 40 x 10 spacings, pulled at both ends with 1 Pa; E = 1 Pa.
+std::string bar(const std::string& lattice) {
+    return R"scene([material.m]
+density = 1
+youngs_modulus = 1
+poissons_ratio = 0.3
+[[body]]
+material = "m"
+box = [[0, 0], [40, 10]]
+spacing = 1
+lattice = )scene" +
+           lattice + R"scene(
+[[load]]
+face = "right"
+pressure = -1
+[[load]]
+face = "left"
+pressure = -1
+[run]
+max_time = 1
+)scene";
+}
+
+struct Pulled {
+    double area = 0;    ///< of the right face (m^2)
+    double strain = 0;  ///< along the bar, from a straight line through its middle half
+};
+
+Pulled pulled(const std::string& lattice) {
+    const Built<2> built = built_from(bar(lattice));
+    const Particles<2>& particles = built.model.particles;
+    const int n = particles.count();
+    Pulled result;
+    for (const Vec3& share : built.physics.loads[0].share) result.area += share.x();
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(2 * n);
+    for (const Load& load : built.physics.loads)
+        for (std::size_t k = 0; k < load.particles.size(); ++k)
+            for (int axis = 0; axis < 2; ++axis) force[2 * load.particles[k] + axis] += load.share[k][axis];
+    const auto nearest = [&](const Vec<2>& place) {
+        int best = 0;
+        for (int i = 0; i < n; ++i)
+            if ((particles.reference_position[i] - place).norm() <
+                (particles.reference_position[best] - place).norm())
+                best = i;
+        return best;
+    };
+    Eigen::SparseMatrix<double> K = tangent(built.model);
+    for (const int dof : {2 * nearest({20, 5}), 2 * nearest({10, 5}) + 1, 2 * nearest({30, 5}) + 1})
+        K.coeffRef(dof, dof) *= 1e9;
+    const Eigen::VectorXd u = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(force);
+    double xx = 0, ux = 0, x = 0, sum = 0, count = 0;
+    for (int i = 0; i < n; ++i) {
+        const double X = particles.reference_position[i].x();
+        if (std::abs(X - 20) > 10) continue;
+        xx += X * X, ux += X * u[2 * i], x += X, sum += u[2 * i], ++count;
+    }
+    result.strain = (ux - x * sum / count) / (xx - x * x / count);
+    return result;
+}
+
+TEST(Build, ABarOfATurnedOrJitteredLatticeIsPulledByItsFaces) {
+    struct Case {
+        const char* lattice;
+        double area, strain;  ///< errors allowed
+    };
+    for (const Case& c :
+         {Case{"{ angle = 0 }", 1e-9, 1e-3}, Case{"{ angle = \"15 deg\" }", 0.02, 0.02},
+          Case{"{ angle = \"30 deg\" }", 0.02, 0.02}, Case{"{ angle = \"45 deg\" }", 0.02, 0.02},
+          Case{"{ jitter = 0.1 }", 0.02, 0.02}, Case{"{ jitter = 0.2 }", 0.04, 0.05}}) {
+        const Pulled bar = pulled(c.lattice);
+        fmt::print("{}: area {:.4f}, strain {:.4f}\n", c.lattice, bar.area / 10, bar.strain);
+        EXPECT_NEAR(bar.area / 10, 1, c.area) << c.lattice;
+        EXPECT_NEAR(bar.strain, 1, c.strain) << c.lattice;
+    }
 }
 
 TEST(Build, ADiscIsOffInAreaAndSaysHowMuch) {

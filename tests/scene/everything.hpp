@@ -49,6 +49,7 @@ name = "disc"
 material = "concrete"
 disc = { centre = ["30 m", "0 m"], radius = "2 m" }
 spacing = "0.25 m"
+lattice = { angle = "30 deg", jitter = 0.1, seed = 3 }
 velocity = ["-speed", "speed * (x - 30 m) / (2 m)"]
 spin = "30 rpm"
 [[body]]

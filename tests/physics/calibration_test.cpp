@@ -1,0 +1,103 @@
+// The constant of fracture_strain, found by linear statics: an edge-cracked strip, bond after bond broken,
+// the load set anew each time; the largest load on the way is that at which the strip fails.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "physics/damage.hpp"
+#include "support/crack.hpp"
+
+namespace hibi {
+namespace {
+
+using test::CrackGrowth;
+using test::StripCase;
+
+struct Failure {
+    double lowest = 0, mean = 0, highest = 0;  ///< K_I at failure over sqrt(Gc E')
+};
+
+/// The mean over four places of the tip between the particles: at 20 particles across, that place alone moves
+/// the failure load by 5 %.
+Failure failure(StripCase c, const std::function<double(double)>& limit, double K_Ic) {
+    Failure result{.lowest = 1e9};
+    for (const double shift : {0.0, 0.25, 0.5, 0.75}) {
+        c.shift_x = shift;
+        double load = 0;
+        CrackGrowth growth(c, 3.6 + 2 * c.influence, 1.6 + 2 * c.influence, 2 + 2 * c.influence);
+        for (const CrackGrowth::Break& b : growth.grow(limit, 3)) load = std::max(load, b.load);
+        result.lowest = std::min(result.lowest, load / K_Ic);
+        result.highest = std::max(result.highest, load / K_Ic);
+        result.mean += load / K_Ic / 4;
+    }
+    return result;
+}
+
+/// By the limits the program uses; Gc = 1 J/m^2.
+Failure failure(const StripCase& c) {
+    const Material m{.name = "unit", .youngs_modulus = 1, .poissons_ratio = c.nu, .fracture_energy = 1};
+    const double E = c.assumption == Assumption::plane_stress ? 1 : 1 / (1 - c.nu * c.nu);
+    const auto limit = [&](double length) {
+        return fracture_strain(m, c.assumption, c.influence, c.spacing(), length);
+    };
+    return failure(c, limit, std::sqrt(E));
+}
+
+TEST(Calibration, StripBrokenBondByBondIsTheStripSolvedAnew) {
+    CrackGrowth growth({.across = 12, .angle = 30, .shift_x = 0.3});
+    growth.grow([](double) { return 1.0; }, 2);
+    const Eigen::VectorXd slow = growth.slow();
+    EXPECT_LE((growth.quick() - slow).norm(), 1e-6 * slow.norm());
+}
+
+TEST(Calibration, StripFailsAtTheLoadOfFractureMechanicsAlongTheLatticeAndAcrossIt) {
+    for (const double angle : {0.0, 45.0}) EXPECT_NEAR(failure({.across = 24, .angle = angle}).mean, 1, 0.05);
+    // K_Ic = sqrt(Gc E / (1 - nu^2))
+    EXPECT_NEAR(failure({.across = 24, .nu = 0.4, .assumption = Assumption::plane_strain}).mean, 1, 0.05);
+}
+
+TEST(SlowCalibration, TheConstantsAreThoseOfTheStrip) {
+    for (const double influence : {1.5, 1.8, 2.1, 2.5, 3.1}) {
+        for (const double nu : {0.0, 0.3, 0.45, 0.6, 0.82}) {
+            StripCase c{.across = 24, .nu = nu, .influence = influence};
+            const Material m{.name = "unit", .youngs_modulus = 1, .poissons_ratio = nu, .fracture_energy = 1};
+            const double constant_now = fracture_constant(m, c.assumption, influence);
+            const auto shape = [&](double length) {  // the limits with C = 1
+                return fracture_strain(m, c.assumption, influence, c.spacing(), length) / constant_now;
+            };
+            std::string text;
+            std::vector<double> constant;
+            for (const double angle : {0.0, 15.0, 30.0, 45.0}) {
+                c.angle = angle;
+                const Failure f = failure(c, shape, 1);
+                constant.push_back(1 / f.mean);
+                text += fmt::format("  {:g} deg {:.3f} [{:.3f} {:.3f}]", angle, 1 / f.mean, 1 / f.highest,
+                                    1 / f.lowest);
+            }
+            const double C = (constant.front() + constant.back()) / 2;
+            fmt::print("r_e {} nu' {:4}: C = {:.3f} {}\n", influence, nu, C, text);
+            EXPECT_NEAR(constant_now, C, 0.005 * C);
+        }
+    }
+}
+
+TEST(SlowCalibration, StripFailsAtTheLoadOfFractureMechanicsOverFourfoldRefinement) {
+    for (const double angle : {0.0, 15.0, 30.0, 45.0}) {
+        for (const int across : {24, 48, 96}) {
+            const Failure f = failure({.across = across, .angle = angle});
+            fmt::print("{:2} degrees, {} across: K at failure / K_Ic = {:.3f} [{:.3f} {:.3f}]\n", angle,
+                       across, f.mean, f.lowest, f.highest);
+            EXPECT_NEAR(f.mean, 1, 0.05);
+        }
+    }
+}
+
+TEST(SlowCalibration, ACentreCrackFailsAtTheSameIntensity) {
+    for (const double angle : {0.0, 45.0}) {
+        const Failure f = failure({.across = 48, .angle = angle, .centre = true});
+        fmt::print("{:2} degrees, centre crack: K at failure / K_Ic = {:.3f}\n", angle, f.mean);
+        EXPECT_NEAR(f.mean, 1, 0.05);
+    }
+}
+
+}  // namespace
+}  // namespace hibi
