@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/neighbour_bonds.hpp"
+
 namespace hibi {
-
-namespace {
-
-constexpr double nearest_factor = 1.01;  // of l0: rounding in the lattice must not lose a bond
-
-}  // namespace
 
 std::vector<int> drawn_bonds(const Topology& topology, const std::string& which) {
     std::vector<int> drawn;
     if (which == "none") return drawn;
+    const double longest = longest_neighbour_bond(topology);
     for (int b = 0; b < static_cast<int>(topology.first.size()); ++b)
-        if (which == "all" || topology.rest_length[b] <= nearest_factor * topology.spacing[topology.first[b]])
+        if (which == "all" || topology.rest_length[b] <= longest * topology.spacing[topology.first[b]])
             drawn.push_back(b);
     return drawn;
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "measure/neighbour_bonds.hpp"
 #include "render/context.hpp"
 #include "render/gl.hpp"
 #include "render/program.hpp"
@@ -26,9 +27,6 @@ constexpr float sprite_margin = 2;  ///< of a sprite beyond its disc, both sides
 // bond.vert fades them out towards that.
 constexpr double least_surface_spacing = 4;
 constexpr double least_line_spacing = 12;
-
-// Longest bond between neighbours (spacings): below the diagonal of the lattice, above most of a jittered one.
-constexpr double nearest_bond = 1.4;
 
 // How much darker than its particles a body is between them, also where a theme has no rims.
 constexpr float least_gap = 0.2f;
@@ -78,6 +76,7 @@ struct Renderer::Impl {
         gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
         describe();
         largest_spacing = topology.spacing.empty() ? 0 : *std::ranges::max_element(topology.spacing);
+        longest_strip = longest_neighbour_bond(topology);
     }
 
     void make_framebuffer() {
@@ -168,7 +167,7 @@ struct Renderer::Impl {
         const auto nearest = [&](const DrawnBond& b) {
             const double length =
                 (topology.reference_position[b.second] - topology.reference_position[b.first]).norm();
-            return length < nearest_bond / 2 * (topology.spacing[b.first] + topology.spacing[b.second]);
+            return length < longest_strip / 2 * (topology.spacing[b.first] + topology.spacing[b.second]);
         };
         const auto others = std::ranges::stable_partition(bonds, nearest);
         upload(bond_table, bonds);
@@ -248,6 +247,7 @@ struct Renderer::Impl {
     const Theme& colours;
     Topology topology;
     double largest_spacing = 0;
+    double longest_strip = 0;  ///< of the bonds that carry the surface (spacings)
     bool coloured = true;
     std::string description;
     std::vector<DrawnParticle> particles;

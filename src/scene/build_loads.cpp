@@ -107,6 +107,14 @@ Load make_load(const Scene& scene, const Model<2>& model, const LoadSpec& spec, 
         const Vec3 outward = outward_of(*spec.face);
         std::vector<double> area;
         select_face(model, areas, model.bodies[spec.face_body], *spec.face, load, area);
+        // A turned or jittered lattice has no clean edge: what its areas miss of the side is made up for.
+        if (const Body<2>& body = model.bodies[spec.face_body]; body.lattice != Lattice{}) {
+            const auto& box = std::get<Box<2>>(body.shape.form);
+            const Vec<2> size = box.high - box.low;
+            const double whole = model.thickness * (outward.x() != 0 ? size.y() : size.x());
+            const double found = std::accumulate(area.begin(), area.end(), 0.0);
+            for (double& A : area) A *= whole / found;
+        }
         const double sum = std::accumulate(area.begin(), area.end(), 0.0);
         for (const double A : area)
             load.share.push_back(load.kind == Load::Kind::pressure ? Vec3(A * outward) : Vec3(A / sum, 0, 0));

@@ -171,18 +171,16 @@ Pulled pulled(const std::string& lattice) {
 }
 
 TEST(Build, ABarOfATurnedOrJitteredLatticeIsPulledByItsFaces) {
-    struct Case {
-        const char* lattice;
-        double area, strain;  ///< errors allowed
-    };
-    for (const Case& c :
-         {Case{"{ angle = 0 }", 1e-9, 1e-3}, Case{"{ angle = \"15 deg\" }", 0.02, 0.02},
-          Case{"{ angle = \"30 deg\" }", 0.02, 0.02}, Case{"{ angle = \"45 deg\" }", 0.02, 0.02},
-          Case{"{ jitter = 0.1 }", 0.02, 0.02}, Case{"{ jitter = 0.2 }", 0.04, 0.05}}) {
-        const Pulled bar = pulled(c.lattice);
-        fmt::print("{}: area {:.4f}, strain {:.4f}\n", c.lattice, bar.area / 10, bar.strain);
-        EXPECT_NEAR(bar.area / 10, 1, c.area) << c.lattice;
-        EXPECT_NEAR(bar.strain, 1, c.strain) << c.lattice;
+    // The strain misses what the rough sides add to the width or take from it (half a spacing in ten), and
+    // what the forces that jitter leaves inside a body under even stress take from its stiffness.
+    const std::vector<std::pair<const char*, double>> allowed{
+        {"{ angle = 0 }", 1e-3},          {"{ angle = \"15 deg\" }", 0.06}, {"{ angle = \"30 deg\" }", 0.06},
+        {"{ angle = \"45 deg\" }", 0.06}, {"{ jitter = 0.1 }", 0.02},       {"{ jitter = 0.2 }", 0.05}};
+    for (const auto& [lattice, error] : allowed) {
+        const Pulled bar = pulled(lattice);
+        EXPECT_NEAR(bar.area, 10, 1e-9) << lattice;
+        EXPECT_NEAR(bar.strain, 1, error) << lattice;
+        RecordProperty(lattice, fmt::format("{:.4f}", bar.strain));
     }
 }
 
