@@ -299,7 +299,9 @@ std::string verification_page(const std::vector<VerifyRow>& rows, const VerifyCo
     page +=
         "</tbody></table></div>\n<p class=\"faint\">Order: the slope of error over spacing, both "
         "logarithmic; 2 means "
-        "that half the spacing leaves a quarter of the error. The thesis variant has no goals.</p>\n";
+        "that half the spacing leaves a quarter of the error; where the error changes its sign it says "
+        "little. "
+        "The thesis variant has no goals.</p>\n";
     page += "<h2>What is compared</h2>\n" + case_list(rows);
     page += fmt::format(
         "<h2>How it was made</h2>\n<p>The runs were made one after the other, each with {} thread{}; models "
