@@ -26,9 +26,7 @@ Json value_or_null(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-std::string percent(double share) {
-    return share < 1e-6 ? fmt::format("{:.1e} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
-}
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
 /// With the sign of what was measured less the reference.
 std::string error_text(const VerifyRow& row) {
@@ -242,11 +240,13 @@ std::string row_html(const std::vector<VerifyRow>& rows, std::size_t k) {
         return fmt::format("<td{}>{}</td>", *kind ? fmt::format(" class=\"{}\"", kind) : "", escaped(text));
     };
     const char* begin = thesis ? "<tr class=\"thesis\">" : "<tr>";
+    const std::string order = order_text(rows, row);
     std::string text;
     if (begins_group(rows, k))
         text += fmt::format(
-            "{}<th scope=\"rowgroup\" colspan=\"7\" class=\"words\">{}{} <span>· order {}</span></th></tr>\n",
-            begin, escaped(row.title), thesis ? ", thesis variant" : "", order_text(rows, row));
+            "{}<th scope=\"rowgroup\" colspan=\"7\" class=\"words\">{}{} <span>· {}</span></th></tr>\n",
+            begin, escaped(row.title), thesis ? ", thesis variant" : "",
+            order == "rounding" ? "rounding alone" : "order " + order);
     text += begin + cell(fmt::format("{} = {:g}", row.parameter, row.resolution), "words");
     text += row.failure.empty() ? cell(error_text(row)) : cell(row.failure, "missed");
     text += cell(row.goal ? percent(*row.goal) : "");
@@ -286,7 +286,7 @@ std::string verification_page(const std::vector<VerifyRow>& rows, const VerifyCo
         theme_button() + "</header>\n<main>\n";
     page += fmt::format("<p class=\"verdict{}\"><strong>{}</strong></p>\n", good ? "" : " bad",
                         escaped(verification_verdict(rows)));
-    page += "<section class=\"charts\" aria-label=\"Error over time\">\n";
+    page += "<section class=\"charts pairs\" aria-label=\"Error over time\">\n";
     for (const Chart& chart : speed_charts(rows))
         page += "<figure class=\"chart\">" + chart_in_both_themes(chart, 100) + "</figure>\n";
     page +=
@@ -299,7 +299,9 @@ std::string verification_page(const std::vector<VerifyRow>& rows, const VerifyCo
     page +=
         "</tbody></table></div>\n<p class=\"faint\">Order: the slope of error over spacing, both "
         "logarithmic; 2 means "
-        "that half the spacing leaves a quarter of the error. The thesis variant has no goals.</p>\n";
+        "that half the spacing leaves a quarter of the error; where the error changes its sign it says "
+        "little. "
+        "The thesis variant has no goals.</p>\n";
     page += "<h2>What is compared</h2>\n" + case_list(rows);
     page += fmt::format(
         "<h2>How it was made</h2>\n<p>The runs were made one after the other, each with {} thread{}; models "
