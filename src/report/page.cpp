@@ -6,12 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/base64.hpp"
 #include "base/units.hpp"
 #include "image/axis.hpp"
 #include "image/chart.hpp"
 #include "record/provenance.hpp"
 #include "report/curves.hpp"
+#include "report/html.hpp"
 #include "report/page_files.hpp"
 
 namespace hibi {
@@ -22,31 +22,6 @@ using Json = nlohmann::ordered_json;
 
 /// The cursor needs no more rows than a curve has pixels.
 constexpr std::size_t most_rows = 1500;
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    return result;
-}
-
-std::string data_uri(const std::string& type, const std::string& bytes) {
-    return fmt::format("data:{};base64,{}", type, base64(bytes));
-}
 
 /// Nothing in it can end the script element it stands in.
 std::string script_safe(const Json& json) {
@@ -249,22 +224,12 @@ std::string report_page(const PageContent& c) {
     std::vector<ChartPlace> places;
     const std::string curves = charts_html(charts, places);
 
-    std::string page = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
-    page += fmt::format("<title>{}</title>\n", escaped(s.title));
     // `hibi reproduce` looks for it at the beginning of the file. No "-->" can occur in it: < and > are
     // escaped.
     std::string origin = to_comment(provenance);
     for (std::size_t at = 0; (at = origin.find('>', at)) != std::string::npos;)
         origin.replace(at, 1, "\\u003e");
-    page += "<!-- " + origin + " -->\n";
-    page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-    page += fmt::format("<meta name=\"generator\" content=\"hibi {}\">\n", escaped(provenance.version));
-    page += "<link rel=\"icon\" href=\"data:,\">\n";  // or a browser asks for one
-    page += fmt::format(
-        "<script>document.documentElement.dataset.theme = "
-        "matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';</script>\n"
-        "<style>\n{}</style>\n</head>\n<body>\n",
-        page_style);
+    std::string page = page_head(s.title, origin, provenance.version);
     page += fmt::format("<header><div><h1>{}</h1>\n", escaped(s.title));
     if (!c.about.empty()) page += fmt::format("<p class=\"faint\">{}</p>", escaped(c.about));
     page +=
