@@ -136,7 +136,7 @@ Reference numbers_of(const RunReader& run) {
     r.events = s.events;
     for (const Break& b : read_breaks(run.folder() / "breaks.csv")) {
         if (r.breaks.size() == Reference::most_breaks) break;
-        r.breaks.push_back({b.first, b.second, std::llround(b.time / s.time_step)});
+        r.breaks.push_back({b.first, b.second, s.time_step > 0 ? std::llround(b.time / s.time_step) : 0});
     }
     return r;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/html.hpp"
 #include "report/page_files.hpp"
 
@@ -51,13 +53,19 @@ std::string table_html(const DifferenceTable& table) {
     std::string text = fmt::format("<h2>{}</h2>\n", escaped(table.title));
     if (!table.note.empty()) text += fmt::format("<p class=\"faint\">{}</p>\n", escaped(table.note));
     if (table.rows.empty()) return text;
-    text +=
-        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\"></th><th scope=\"col\">Measured</th>"
-        "<th scope=\"col\">Limit</th></tr></thead>\n<tbody>\n";
+    const bool limited =
+        std::ranges::any_of(table.rows, [](const DifferenceRow& r) { return !r.limit.empty(); });
+    text += "<div class=\"scroll\"><table>\n";
+    if (limited)
+        text +=
+            "<thead><tr><th scope=\"col\"></th><th scope=\"col\">Measured</th><th "
+            "scope=\"col\">Limit</th></tr>"
+            "</thead>\n";
+    text += "<tbody>\n";
     for (const DifferenceRow& row : table.rows)
-        text += fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
+        text += fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td>{}</tr>\n",
                             row.holds.value_or(true) ? "" : " class=\"wrong\"", escaped(row.name),
-                            escaped(row.value), escaped(row.limit));
+                            escaped(row.value), limited ? "<td>" + escaped(row.limit) + "</td>" : "");
     return text + "</tbody></table></div>\n";
 }
 

@@ -188,12 +188,12 @@ void pass_all(const std::string& scenes, const std::string& environment) {
 }
 
 TEST(Defects, RoundingOfAnotherProcessorIsNone) {
-    for (const char* environment : {"GALLIUM_OVERRIDE_CPU_CAPS=avx", "GALLIUM_OVERRIDE_CPU_CAPS=sse2"})
+    for (const char* environment : {"GALLIUM_OVERRIDE_CPU_CAPS=nosse", "GALLIUM_OVERRIDE_CPU_CAPS=sse2"})
         pass_all(HIBI_SOURCE_DIR "/scenes/bending_coarse.toml", environment);
 }
 
 TEST(SlowDefects, RoundingOfAnotherProcessorIsNoneInAnyScene) {
-    for (const char* environment : {"GALLIUM_OVERRIDE_CPU_CAPS=avx", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",
+    for (const char* environment : {"GALLIUM_OVERRIDE_CPU_CAPS=nosse", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",
                                     "GALLIUM_OVERRIDE_CPU_CAPS=sse2", "LP_NATIVE_VECTOR_WIDTH=128"})
         pass_all(HIBI_SOURCE_DIR "/scenes " HIBI_SOURCE_DIR "/tests/images", environment);
 }

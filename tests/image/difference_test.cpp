@@ -77,7 +77,7 @@ TEST(Difference, EachLimitDecidesByItself) {
     add(far, 10, 10, 0, 0, 17);
     EXPECT_EQ(judge(difference(a, far), {}), Sameness::tolerated);
     add(far, 200, 100, 0, 0, 17);
-    const Image mean = plain(320, 180, 101);
+    Image mean = plain(320, 180, 101);
     Image rmse = a;  // a hundred pixels in a thousand by 8, up and down
     for (int k = 0; k < 320 * 180; ++k)
         if (k % 10 == 0) add(rmse, k % 320, k / 320, k % 20 ? 8 : -8, 0, 0);
