@@ -46,7 +46,7 @@ foreach(package IN ITEMS fonts-inter fonts-ipaexfont-gothic libcli11-dev libeige
     endif()
 endforeach()
 configure_file(packaging/copyright.in ${written}/packaging/copyright @ONLY)
-install(FILES ${written}/packaging/copyright README.md CHANGELOG.md scenes/REFERENCE.md
+install(FILES ${written}/packaging/copyright README.md CHANGELOG.md scenes/REFERENCE.md scenes/TESTING.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(CPACK_GENERATOR DEB)

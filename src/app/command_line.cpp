@@ -11,6 +11,7 @@
 #include "app/compare.hpp"
 #include "app/completion.hpp"
 #include "app/converge.hpp"
+#include "app/diff.hpp"
 #include "app/doctor.hpp"
 #include "app/draw.hpp"
 #include "app/figures.hpp"
@@ -19,6 +20,7 @@
 #include "app/report.hpp"
 #include "app/reproduce.hpp"
 #include "app/run.hpp"
+#include "app/test_scenes.hpp"
 #include "app/verify.hpp"
 #include "base/parallel.hpp"
 #include "film/encoder.hpp"
@@ -37,11 +39,14 @@ Examples:
   hibi check scene.toml                        what would be modelled, and how long it would take
   hibi preview scene.toml -o setup.png         supports, loads and notches in one picture
   hibi render out/bending_fine                 draw again from the recorded states
+  hibi diff out/before out/after               which bond broke first at another time
+  hibi test scenes/                            compare with the references beside the scenes
   hibi reproduce figure.png                    the command that made it
   hibi verify --quick                          how accurate it is, and how fast
   hibi new my_scene.toml                       a commented scene to start from
 
-Exit status: 0 done, 1 it failed, 2 the input is wrong, 4 done, but the energy balance is off by more than 2 %.
+Exit status: 0 done, 1 it failed, 2 the input is wrong, 3 pictures or runs differ,
+4 done, but the energy balance is off by more than 2 %.
 )";
 
 using Command = CLI::App;
@@ -227,6 +232,60 @@ void add_compare(CLI::App& app, int& status) {
     compare->callback([o, &status] { status = compare_command(*o); });
 }
 
+/// Every threshold of a comparison, its default shown.
+void add_tolerance(Command& command, Tolerance& pixels, RunTolerance& run) {
+    const auto add = [&](const char* name, auto& value, const char* meaning) {
+        command.add_option(name, value, meaning)->check(CLI::NonNegativeNumber)->capture_default_str();
+    };
+    add("--tile", pixels.tile, "worst 32 x 32 tile: RMS difference of luma, in steps of 1/255");
+    add("--pixels", pixels.pixels, "pixels per megapixel with a channel off by more than 16");
+    add("--mean", pixels.mean, "mean signed difference of any channel");
+    add("--rmse", pixels.rmse, "RMS difference of any channel");
+    add("--position", run.position, "difference of positions, in particle spacings");
+    add("--break-steps", run.break_steps, "steps by which a bond may break earlier or later");
+    add("--load", run.load, "difference of loads, in parts of the peak load");
+}
+
+void add_diff(CLI::App& app, int& status) {
+    Command* diff = app.add_subcommand(
+        "diff", "Compare two pictures, films or runs: has the drawing changed, or the physics?");
+    const auto o = options_of<DiffOptions>();
+    diff->add_option("EXPECTED", o->expected, "PNG, folder of PNGs, frames.json, or folder of a run")
+        ->required();
+    diff->add_option("ACTUAL", o->actual, "another of the same kind")->required();
+    diff->add_option("-o,--output", o->output, "folder of the pictures and the page")->capture_default_str();
+    diff->add_flag("--json", o->json, "print JSON instead of the verdict");
+    diff->add_option("--junit", o->junit, "write JUnit XML to this file");
+    add_tolerance(*diff, o->pixels, o->run);
+    diff->callback([o, &status] { status = diff_command(*o); });
+}
+
+void add_test(CLI::App& app, int& status) {
+    Command* test =
+        app.add_subcommand("test", "Image tests: run scenes and compare them with stored references");
+    const auto o = options_of<TestOptions>();
+    test->add_option("SCENE", o->scenes, "scene files (TOML), or folders of them")->required();
+    test->add_option_function<std::string>(
+            "--update",
+            [o](const std::string& what) {
+                o->update = what == "all"       ? Update::all
+                            : what == "changed" ? Update::changed
+                                                : Update::missing;
+            },
+            "write references: those missing, those too that changed, or all; old pictures stay as *.old.png")
+        ->check(CLI::IsMember({"missing", "changed", "all"}))
+        ->type_name("TEXT");
+    test->add_option("-o,--output", o->output, "folder for runs and pictures of what fails")
+        ->capture_default_str();
+    test->add_option("--jobs", o->jobs, "scenes at once (default: one per core)")->check(CLI::Range(1, 1024));
+    test->add_flag("--json", o->json, "print JSON instead of lines");
+    test->add_option("--junit", o->junit, "write JUnit XML to this file");
+    add_tolerance(*test, o->pixels, o->run);
+    add_drawing(*test, o->renderer);
+    add_quiet(*test, o->quiet);
+    test->callback([o, &status] { status = test_command(*o); });
+}
+
 void add_study(Command& command, std::vector<std::string>& grid, StudyOptions& study, const char* folder) {
     command.add_option("-p,--param", grid, "values of one of [params], name=value,value,...")
         ->allow_extra_args(false)
@@ -369,9 +428,9 @@ std::shared_ptr<CLI::App> make_command_line(int& status) {
     app->require_subcommand(1);
     app->set_version_flag("--version", "hibi " HIBI_VERSION);
     app->set_help_all_flag("--help-all", "Help of every command");
-    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_sweep,
-                           add_converge, add_verify, add_check, add_preview, add_new, add_reproduce,
-                           add_schema, add_completion, add_manual, add_doctor})
+    for (const auto add : {add_run, add_render, add_strip, add_figures, add_report, add_compare, add_diff,
+                           add_test, add_sweep, add_converge, add_verify, add_check, add_preview, add_new,
+                           add_reproduce, add_schema, add_completion, add_manual, add_doctor})
         add(*app, status);
     for (CLI::App* command : app->get_subcommands({}))
         command->footer("");  // the examples stand in hibi --help

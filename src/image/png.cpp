@@ -74,6 +74,11 @@ Image decode(const std::vector<unsigned char>& bytes, PngText* text) {
     Source source{bytes};
     png_set_read_fn(reader.png, &source, take);
     png_read_info(reader.png, reader.info);
+    constexpr double most_pixels = 1 << 28;  // a damaged header must not ask for all memory
+    if (static_cast<double>(png_get_image_width(reader.png, reader.info)) *
+            png_get_image_height(reader.png, reader.info) >
+        most_pixels)
+        throw std::runtime_error("it says to have more pixels than can be");
     Image image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
                 static_cast<int>(png_get_image_height(reader.png, reader.info)));
     png_set_expand(reader.png);
@@ -153,17 +158,36 @@ void write_png(const std::filesystem::path& file, const Image& image, const PngO
     throw std::runtime_error(file.string() + ": cannot write the picture: " + error.message());
 }
 
-Image read_png(const std::filesystem::path& file, PngText* text) {
+namespace {
+
+/// The whole file, which begins as a PNG does.
+std::vector<unsigned char> png_bytes(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw std::runtime_error(file.string() + ": cannot open the picture: " + std::strerror(errno));
-    const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(in), {}};
+    std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(in), {}};
     if (bytes.size() < 8 || png_sig_cmp(bytes.data(), 0, 8) != 0)
         throw std::runtime_error(file.string() + ": not a PNG picture");
+    return bytes;
+}
+
+}  // namespace
+
+Image read_png(const std::filesystem::path& file, PngText* text) {
+    const std::vector<unsigned char> bytes = png_bytes(file);
     try {
         return decode(bytes, text);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(file.string() + ": damaged PNG picture: " + error.what());
     }
+}
+
+int png_bit_depth(const std::filesystem::path& file) {
+    // Signature, then length, name, width, height of the first chunk, IHDR.
+    constexpr std::size_t place = 24;
+    const std::vector<unsigned char> bytes = png_bytes(file);
+    if (bytes.size() <= place)
+        throw std::runtime_error(file.string() + ": damaged PNG picture: the file ends too early");
+    return bytes[place];
 }
 
 }  // namespace hibi

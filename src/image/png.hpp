@@ -27,4 +27,8 @@ void write_png(const std::filesystem::path& file, const Image& image, const PngO
 /// texts if wanted. Throws std::runtime_error naming the file and what is wrong with it.
 Image read_png(const std::filesystem::path& file, PngText* text = nullptr);
 
+/// Bits per channel as the file's header says, 1 to 16. Throws std::runtime_error naming a file that is no
+/// PNG.
+int png_bit_depth(const std::filesystem::path& file);
+
 }  // namespace hibi

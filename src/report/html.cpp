@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/base64.hpp"
 #include "report/page_files.hpp"
 
 namespace hibi {
@@ -27,23 +28,30 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-std::string page_head(const std::string& title, const Provenance& provenance) {
+std::string data_uri(const std::string& type, const std::string& bytes) {
+    return fmt::format("data:{};base64,{}", type, base64(bytes));
+}
+
+std::string page_head(const std::string& title, const Provenance& provenance,
+                      const std::string& extra_style) {
     std::string page = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
     page += fmt::format("<title>{}</title>\n", escaped(title));
     // `hibi reproduce` looks for it at the beginning of the file. No "-->" can occur in it: < and > are
     // escaped.
-    std::string origin = to_comment(provenance);
-    for (std::size_t at = 0; (at = origin.find('>', at)) != std::string::npos;)
-        origin.replace(at, 1, "\\u003e");
-    page += "<!-- " + origin + " -->\n";
+    if (!provenance.command.empty()) {
+        std::string origin = to_comment(provenance);
+        for (std::size_t at = 0; (at = origin.find('>', at)) != std::string::npos;)
+            origin.replace(at, 1, "\\u003e");
+        page += "<!-- " + origin + " -->\n";
+    }
     page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
     page += fmt::format("<meta name=\"generator\" content=\"hibi {}\">\n", escaped(provenance.version));
     page += "<link rel=\"icon\" href=\"data:,\">\n";  // or a browser asks for one
     page += fmt::format(
         "<script>document.documentElement.dataset.theme = "
         "matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';</script>\n"
-        "<style>\n{}</style>\n</head>\n<body>\n",
-        page_style);
+        "<style>\n{}{}</style>\n</head>\n<body>\n",
+        page_style, extra_style);
     return page;
 }
 

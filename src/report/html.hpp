@@ -9,9 +9,13 @@ namespace hibi {
 /// Text as HTML shows it, in an element or between the quotes of an attribute.
 std::string escaped(const std::string& text);
 
+/// Bytes within the page.
+std::string data_uri(const std::string& type, const std::string& bytes);
+
 /// A page up to <body>: title, where it is from (`hibi reproduce` finds it), style, and the theme that the
 /// system prefers. It asks nothing of a network.
-std::string page_head(const std::string& title, const Provenance& provenance);
+std::string page_head(const std::string& title, const Provenance& provenance,
+                      const std::string& extra_style = {});
 
 /// The button of the page's corner that changes the theme.
 std::string theme_button();

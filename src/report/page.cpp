@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/base64.hpp"
 #include "base/units.hpp"
 #include "image/axis.hpp"
 #include "image/chart.hpp"
@@ -23,10 +22,6 @@ using Json = nlohmann::ordered_json;
 
 /// The cursor needs no more rows than a curve has pixels.
 constexpr std::size_t most_rows = 1500;
-
-std::string data_uri(const std::string& type, const std::string& bytes) {
-    return fmt::format("data:{};base64,{}", type, base64(bytes));
-}
 
 /// Nothing in it can end the script element it stands in.
 std::string script_safe(const Json& json) {

@@ -323,10 +323,14 @@ void check_rest(const Scene& scene, const Possible& possible, Problems& problems
                                  scene.movie.duration, *scene.movie.hold));
     want_positive(problems, "movie/flash", "[movie] flash", scene.movie.flash);
     check_moment(possible, scene.movie.poster, false, "movie/poster", "[movie] poster", problems);
-    // A key frame of an event that cannot happen is left out like that of one that did not.
-    for (std::size_t k = 0; k < scene.strip.at.size(); ++k)
-        check_moment({true, true, true}, scene.strip.at[k], false, fmt::format("strip/at/{}", k),
-                     "[strip] at", problems);
+    // A picture of an event that cannot happen is left out like that of one that did not.
+    const auto check_moments = [&](const std::vector<Moment>& moments, const char* path, const char* label) {
+        for (std::size_t k = 0; k < moments.size(); ++k)
+            check_moment({true, true, true}, moments[k], false, fmt::format("{}/{}", path, k), label,
+                         problems);
+    };
+    check_moments(scene.strip.at, "strip/at", "[strip] at");
+    check_moments(scene.test.frames, "test/frames", "[test] frames");
 
     const bool moving = std::any_of(scene.bodies.begin(), scene.bodies.end(), moves);
     if (scene.loads.empty() && !scene.gravity && !moving && problems.fine("load") && problems.fine("body") &&

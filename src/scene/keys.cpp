@@ -251,9 +251,14 @@ const std::vector<KeyBlock>& scene_blocks() {
              "moments; what did not happen is left out, what happened at once shares a picture",
              R"(["first_break", "separation", "separation + 0.2 s"])"},
         }},
-        {"test", "[test]", Form::single, "Frames that are compared with stored ones.", {{"frames", moment, "",
-         "", "", ""}},
-         false},
+        {"test", "[test]", Form::single, "Pictures that `hibi test` compares with stored ones.", {
+            {"size", size, "", "[320, 180]", "pixels, even numbers", "[480, 270]"},
+            {"frames", moments, "", R"(["start", "first_break", "peak_load", "separation", "end"])",
+             "moments; what did not happen is left out, what happened at once shares a picture",
+             R"(["first_break", "separation", "end"])"},
+            {"params", names, "", "[]", "values of [params] for the test alone, as -p gives them: a coarser body, say",
+             R"(["spacing=2 m"])"},
+        }},
         {"contact", "[contact]", Form::single, "Contact between bodies and fragments.", {}, false},
         {"rigid", "[[rigid]]", Form::list, "A rigid tool.", {}, false},
     };

@@ -331,6 +331,22 @@ void read_movie(const Value& document, ReadContext& context, MovieSpec& movie) {
     if (const auto megabytes = block->quantity("gif_limit")) movie.gif_limit = 1e6 * *megabytes;
 }
 
+void read_test(const Value& document, ReadContext& context, TestSpec& test) {
+    auto block = single(document, context, "test");
+    if (!block) return;
+    if (const auto size = block->size("size")) {
+        test.width = size->at(0);
+        test.height = size->at(1);
+    }
+    set(test.frames, block->moments("frames"));
+    set(test.params, block->names("params"));
+    for (std::size_t i = 0; i < test.params.size(); ++i)
+        if (const std::size_t equals = test.params[i].find('='); equals == 0 || equals == std::string::npos)
+            block->fail(fmt::format("params/{}", i),
+                        fmt::format("[test] params: \"{}\" is not of the form name=value", test.params[i]),
+                        "for example: \"spacing=2 m\"");
+}
+
 }  // namespace
 
 void read_blocks(const Value& document, ReadContext& context, Scene& scene) {
@@ -347,7 +363,8 @@ void read_blocks(const Value& document, ReadContext& context, Scene& scene) {
     read_view(document, context, scene.view);
     read_movie(document, context, scene.movie);
     if (auto block = single(document, context, "strip")) set(scene.strip.at, block->moments("at"));
-    for (const char* later : {"test", "contact"}) single(document, context, later);
+    read_test(document, context, scene.test);
+    single(document, context, "contact");
     list(document, context, "rigid");
     for (const KeyBlock& block : scene_blocks()) {
         if (!block.required || block.form == KeyBlock::Form::single) continue;  // [run] is missed above

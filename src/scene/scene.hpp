@@ -101,12 +101,23 @@ struct MovieSpec {
     int frames() const { return std::max(1, static_cast<int>(duration * fps + 0.5)); }
 };
 
+/// The moments that tell a failure.
+inline std::vector<Moment> key_events() {
+    return {{EventName::start, 0},
+            {EventName::first_break, 0},
+            {EventName::peak_load, 0},
+            {EventName::separation, 0},
+            {EventName::end, 0}};
+}
+
 struct StripSpec {
-    std::vector<Moment> at{{EventName::start, 0},
-                           {EventName::first_break, 0},
-                           {EventName::peak_load, 0},
-                           {EventName::separation, 0},
-                           {EventName::end, 0}};
+    std::vector<Moment> at = key_events();
+};
+
+struct TestSpec {
+    int width = 320, height = 180;  ///< (pixels)
+    std::vector<Moment> frames = key_events();
+    std::vector<std::string> params{};  ///< "name=value" for the test alone
 };
 
 /// A whole experiment, checked; SI. Defaults stand here and in the structs it collects, once.
@@ -130,6 +141,7 @@ struct Scene {
     View view;
     MovieSpec movie;
     StripSpec strip;
+    TestSpec test;
 };
 
 /// What the solver gets.

@@ -57,6 +57,12 @@ std::string moment(const Moment& m) {
         fmt::format("{} {} {} s", to_string(*m.event), m.offset < 0 ? "-" : "+", std::abs(m.offset)));
 }
 
+std::string moments(const std::vector<Moment>& list) {
+    std::string text;
+    for (const Moment& m : list) text += (text.empty() ? "" : ", ") + moment(m);
+    return "[" + text + "]";
+}
+
 struct ShapeWriter {
     std::string operator()(const Box<2>& s) const { return "box = " + points({s.low, s.high}); }
     std::string operator()(const Disc<2>& s) const {
@@ -209,10 +215,8 @@ void write_pictures(Writer& out, const View& view, const MovieSpec& movie, const
     out.line("formats", names(movie.formats));
     out.line("gif_limit", movie.gif_limit / 1e6);
 
-    std::string at;
-    for (const Moment& m : strip.at) at += (at.empty() ? "" : ", ") + moment(m);
     out.block("[strip]");
-    out.line("at", "[" + at + "]");
+    out.line("at", moments(strip.at));
 }
 
 }  // namespace
@@ -246,6 +250,10 @@ std::string write_scene(const Scene& scene) {
     out.line("time_step", scene.run.time_step);
     out.line("time_step_factor", scene.run.time_step_factor);
     write_pictures(out, scene.view, scene.movie, scene.strip);
+    out.block("[test]");
+    out.line("size", fmt::format("[{}, {}]", scene.test.width, scene.test.height));
+    out.line("frames", moments(scene.test.frames));
+    out.line("params", names(scene.test.params));
     return std::move(out.text);
 }
 

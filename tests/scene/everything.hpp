@@ -148,6 +148,10 @@ gif_limit = 4
 
 [strip]
 at = ["first_break", "separation + 0.2 s", "3 s"]
+[test]
+size = [480, 270]
+frames = ["first_break", "peak_load - 1 ms", 2]
+params = ["spacing=1 m", "count=2"]
 )scene";
 
 /// The least that runs: 40 m x 20 m plate of 4 m particles, clamped on the left, pulled down at the right.
