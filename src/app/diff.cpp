@@ -372,7 +372,7 @@ void compare_drawings(const DiffOptions& options, Findings& f) {
     f.frames = compare_frames(expected, actual, options.pixels);
 }
 
-/// A run that came to its end has all the states and breaks that it counted: what is gone must not pass
+/// A run that came to its end has all the states, rows and breaks that it counted: what is gone must not pass
 /// unseen.
 void require_complete(const RunReader& run) {
     if (run.summary().stopped) return;
@@ -382,9 +382,14 @@ void require_complete(const RunReader& run) {
         throw std::runtime_error(fmt::format("{}: holds {} broken bonds, and run.json counts {}",
                                              (run.folder() / "breaks.csv").string(), broken,
                                              run.summary().broken));
+    const std::vector<HistoryRow>& rows = run.history().rows;
+    if (rows.empty() || rows.back().time < run.summary().end_time)
+        throw std::runtime_error(
+            fmt::format("{}: ends before the run does", (run.folder() / "history.csv").string()));
     const fs::path series = run.folder() / "states.hdf.series";
     try {
-        for (const Json& state : Json::parse(read_file(series)).at("files"))
+        const Json list = Json::parse(read_file(series));
+        for (const Json& state : list.at("files"))
             if (const fs::path file = run.folder() / state.at("name").get<std::string>(); !fs::exists(file))
                 throw std::runtime_error(fmt::format("{}: is missing, though {} lists it", file.string(),
                                                      series.filename().string()));

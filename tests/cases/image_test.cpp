@@ -113,7 +113,7 @@ TEST_F(ImageTest, TellsChangedDrawingFromChangedPhysicsAndKeepsTheOldPicture) {
     answer = test("");
     EXPECT_EQ(answer.status, 3);
     EXPECT_TRUE(has(answer, "physics changed first at t = ")) << answer.out;
-    EXPECT_TRUE(has(answer, " earlier; load at first break -1.0 %")) << answer.out;
+    EXPECT_TRUE(has(answer, " earlier; load at first break -0.85 %")) << answer.out;
     edit("spacing = \"4 m\"", "spacing = \"5 m\"");
     EXPECT_TRUE(has(test(""), "another body: 32 particles")) << answer.out;
 }
