@@ -64,5 +64,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Opened at run time, so that nothing shows in the program: one OpenGL is needed, the other is for --gl egl.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS libosmesa6)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri")
+# The BLAS behind static runs may be any; this one is fast.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libopenblas0-serial")
 include(CPack)
