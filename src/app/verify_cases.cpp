@@ -124,12 +124,19 @@ double first_break_stress(const VerifyRun& run, double section) {
     return run.events.first_break ? run.events.first_break->load / section : std::nan("");
 }
 
+/// Stress under which the crack has run on by three spacings (Pa): the first bond alone does not let it go.
+double running_stress(const VerifyRun& run, double section) {
+    for (const VerifyObservation& o : run.observations)
+        if (o.row.crack.length >= 3 * run.parameter("spacing")) return o.row.load / section;
+    return std::nan("");
+}
+
 VerifyResult judge_cracked_strip(const std::vector<VerifyRun>& runs) {
     const VerifyRun& run = runs[0];
     const double a = run.parameter("crack"), W = run.parameter("width");
-    return compare(first_break_stress(run, W), std::sqrt(material(run).youngs_modulus *
-                                                         run.parameter("energy") / (std::numbers::pi * a)) /
-                                                   edge_crack_factor(a / W));
+    return compare(running_stress(run, W), std::sqrt(material(run).youngs_modulus * run.parameter("energy") /
+                                                     (std::numbers::pi * a)) /
+                                               edge_crack_factor(a / W));
 }
 
 VerifyResult judge_flawless_bar(const std::vector<VerifyRun>& runs) {
@@ -245,11 +252,12 @@ const std::vector<VerifyCase>& verify_cases() {
          .group = failure,
          .scene = "verify/cracked_strip",
          .parameter = "columns",
-         .quantity = "stress at first break",
+         .quantity = "stress that the crack runs under",
          .unit = "Pa",
          .reference = "K = F sigma sqrt(pi a), Tada, Paris and Irwin",
          .resolutions = {{10, 5e-2, true}, {20, 5e-2, true}, {40, 5e-2}},
-         .judge = judge_cracked_strip},
+         .judge = judge_cracked_strip,
+         .observations = 1000},
         {.id = "flawless_bar",
          .title = "Flawless bar",
          .group = failure,
