@@ -118,7 +118,7 @@ TEST_F(WebSchema, AcceptsWhatTheReaderAcceptsAndEveryExampleOfTheTable) {
         files.push_back(entry.path());
         std::string first;
         std::getline(std::ifstream(entry.path()), first);
-        const std::string up = entry.path().parent_path().filename() == "verify" ? "../../" : "../";
+        const std::string up = entry.path().parent_path().filename() == "scenes" ? "../" : "../../";
         EXPECT_EQ(first, "#:schema " + up + "build/release/scene.schema.json") << entry.path();
     }
     EXPECT_GE(files.size(), 2u + 4u);

@@ -71,7 +71,7 @@ await inBrowser({ width: 1280, height: 900 }, async (page, complaints) => {
   await page.keyboard.press('Home'); await settled();
   const start = await cursor(run.charts.length - 1);
   await page.locator('#play').click();
-  await page.waitForFunction(fps => document.querySelector('video').currentTime * fps > 6.5, run.fps, { timeout: 30000 }).catch(() => {});
+  await page.waitForFunction(fps => document.querySelector('video').currentTime * fps > 6.5, run.fps, { timeout: 90000 }).catch(() => {});
   await page.locator('#play').click();
   expect(await frame() > 5, 'the film does not play');
   expect(await cursor(run.charts.length - 1) > start, 'the cursor does not follow the film');
