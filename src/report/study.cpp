@@ -291,13 +291,21 @@ Convergence judge_convergence(const std::vector<StudyRun>& runs) {
         if (broken.size() < 2) continue;
         const StudyRun &finest = *broken.back(), &before = *broken[broken.size() - 2];
         const double moved = failure_load(finest) / failure_load(before) - 1;
+        const auto percent = [](double part) { return (part > 0 ? "+" : "") + decimal(100 * part, 1) + " %"; };
+        std::string text = fmt::format("{}the load at first break moves by {}",
+                                       criterion.empty() ? "" : "With " + criterion + " ", percent(moved));
+        double most = std::abs(moved);
+        const Events &fine = finest.summary->events, &coarse = before.summary->events;
+        if (fine.separation && coarse.separation && fine.peak_load && coarse.peak_load) {
+            // Without separation the largest load is that at which the run was over.
+            const double peak_moved = fine.peak_load->load / coarse.peak_load->load - 1;
+            text += fmt::format(", the peak load by {},", percent(peak_moved));
+            most = std::max(most, std::abs(peak_moved));
+        }
         const StudyRun::Parameter &p = before.parameters[0], &q = finest.parameters[0];
-        std::string text =
-            fmt::format("{}the load at first break moves by {} % from {} = {} to {}",
-                        criterion.empty() ? "" : "With " + criterion + " ",
-                        (moved > 0 ? "+" : "") + decimal(100 * moved, 1), p.name, p.text, q.text);
+        text += fmt::format(" from {} = {} to {}", p.name, p.text, q.text);
         text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-        if (std::abs(moved) > most_movement) {
+        if (most > most_movement) {
             result.warns = true;
             text += ": it does not converge, and is a property of the particles' size, not of the body alone";
         }

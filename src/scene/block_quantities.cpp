@@ -104,6 +104,25 @@ std::optional<double> BlockReader::number_of(const std::string& key, const Value
     return (*field)(Vec3::Zero(), 0);
 }
 
+std::optional<std::int64_t> BlockReader::integer(const std::string& key) {
+    const Value* value = find(key, KeyKind::integer);
+    if (!value) return {};
+    if (value->kind == Value::Kind::integer) return value->integer;
+    if (value->kind != Value::Kind::text) {
+        wrong(key, *value, path(key), "a whole number");
+        return {};
+    }
+    const auto number = number_of(key, *value, path(key), "");
+    if (!number) return {};
+    constexpr double exact = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
+    if (*number != std::round(*number) || std::abs(*number) > exact) {
+        context_.problems.add(path(key), value->place,
+                              fmt::format("{} needs a whole number; found {}", label(key), *number), hint(key));
+        return {};
+    }
+    return static_cast<std::int64_t>(*number);
+}
+
 std::optional<double> BlockReader::quantity(const std::string& key) {
     const Value* value = find(key, KeyKind::quantity);
     if (!value) return {};

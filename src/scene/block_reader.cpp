@@ -94,16 +94,6 @@ std::optional<bool> BlockReader::flag(const std::string& key) {
     return value->boolean;
 }
 
-std::optional<std::int64_t> BlockReader::integer(const std::string& key) {
-    const Value* value = find(key, KeyKind::integer);
-    if (!value) return {};
-    if (value->kind != Value::Kind::integer) {
-        wrong(key, *value, path(key), "a whole number");
-        return {};
-    }
-    return value->integer;
-}
-
 std::optional<std::string> BlockReader::choice(const std::string& key) {
     const Value* value = find(key, KeyKind::choice);
     if (!value) return {};

@@ -85,7 +85,7 @@ Json value_schema(const Key& key) {
         case KeyKind::flag:
             return {{"type", "boolean"}};
         case KeyKind::integer:
-            return {{"type", "integer"}};
+            return {{"type", {"string", "integer"}}};
         case KeyKind::choice:
             return choice;
         case KeyKind::choices:

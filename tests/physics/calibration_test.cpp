@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "physics/damage.hpp"
 #include "support/crack.hpp"
 
@@ -52,11 +54,11 @@ TEST(Calibration, StripBrokenBondByBondIsTheStripSolvedAnew) {
 }
 
 TEST(Calibration, StripFailsAtTheLoadOfFractureMechanicsAlongTheLatticeAndAcrossIt) {
-    // 0.95 and 1.05: the constant is the mean of what both ask for.
-    const double along = failure({.across = 24}).mean, across = failure({.across = 24, .angle = 45}).mean;
-    EXPECT_NEAR((1 / along + 1 / across) / 2, 1, 0.005);
-    EXPECT_NEAR(along, 1, 0.06);
-    EXPECT_NEAR(across, 1, 0.06);
+    // 0.92 and 1.06; the goal of 5 % is for the larger influence, in SlowStrip.
+    const double along = failure({.across = 32}).mean, across = failure({.across = 32, .angle = 45}).mean;
+    EXPECT_NEAR(along, 1, 0.09);
+    EXPECT_NEAR(across, 1, 0.09);
+    EXPECT_NEAR(along + across, 2, 0.05);
 }
 
 TEST(Calibration, PlaneStrainFailsAtItsOwnToughness) {
@@ -67,47 +69,60 @@ TEST(Calibration, PlaneStrainFailsAtItsOwnToughness) {
     EXPECT_NEAR(stress, strain, 1e-6);
 }
 
-TEST(SlowCalibration, TheConstantsAreThoseOfTheStrip) {
-    for (const double influence : {1.5, 1.8, 2.1, 2.5, 3.1}) {
-        for (const double nu : {0.0, 0.3, 0.45, 0.6, 0.7, 0.82}) {
-            StripCase c{.across = 24, .nu = nu, .influence = influence};
-            const Material m{.name = "unit", .youngs_modulus = 1, .poissons_ratio = nu, .fracture_energy = 1};
-            const double constant_now = fracture_constant(m, c.assumption, influence);
+class ConstantOfTheStrip : public testing::TestWithParam<std::tuple<double, double>> {};
+
+TEST_P(ConstantOfTheStrip, IsThatOfTheTable) {
+    const auto [influence, nu] = GetParam();
+    const Material m{.name = "unit", .youngs_modulus = 1, .poissons_ratio = nu, .fracture_energy = 1};
+    const double constant_now = fracture_constant(m, Assumption::plane_stress, influence);
+    double lowest = 1e9, highest = 0;
+    for (const double angle : {0.0, 45.0}) {
+        for (const int across : {20, 40, 80}) {
+            const StripCase c{.across = across, .angle = angle, .nu = nu, .influence = influence};
             const auto shape = [&](double length) {  // the limits with C = 1
                 return fracture_strain(m, c.assumption, influence, c.spacing(), length) / constant_now;
             };
-            std::string text;
-            std::vector<double> constant;
-            for (const double angle : {0.0, 15.0, 30.0, 45.0}) {
-                c.angle = angle;
-                const Failure f = failure(c, shape, 1);
-                constant.push_back(1 / f.mean);
-                text += fmt::format("  {:g} deg {:.3f} [{:.3f} {:.3f}]", angle, 1 / f.mean, 1 / f.highest,
-                                    1 / f.lowest);
+            const double mean = failure(c, shape, 1).mean;
+            lowest = std::min(lowest, mean);
+            highest = std::max(highest, mean);
+        }
+    }
+    const double C = 2 / (lowest + highest);
+    fmt::print("r_e {} nu' {}: C = {:.3f}, within {:.1f} %\n", influence, nu, C,
+               100 * (highest - lowest) / (highest + lowest));
+    EXPECT_NEAR(constant_now, C, 0.002 * C);
+}
+
+INSTANTIATE_TEST_SUITE_P(Slow, ConstantOfTheStrip,
+                         testing::Combine(testing::Values(1.5, 1.8, 2.1, 2.5, 3.1),
+                                          testing::Values(0.0, 0.3, 0.45, 0.6, 0.7, 0.82)));
+
+// The more bonds cross a crack, the less the load depends on its direction. Between the rows and the diagonals
+// nothing was calibrated: what 15 and 30 degrees are off by is a figure to be known, not one to be proud of.
+TEST(SlowStrip, FailsAtTheLoadOfFractureMechanicsOverFourfoldRefinement) {
+    for (const double influence : {2.1, 3.1}) {
+        for (const double angle : {0.0, 45.0, 15.0, 30.0}) {
+            const bool calibrated = angle == 0 || angle == 45;
+            const double tolerance = influence > 3 ? calibrated ? 0.05 : 0.1 : calibrated ? 0.08 : 0.16;
+            for (const int across : {20, 40, 80}) {
+                const Failure f = failure({.across = across, .angle = angle, .influence = influence});
+                fmt::print("r_e {}, {:2} degrees, {} across: K at failure / K_Ic = {:.3f} [{:.3f} {:.3f}]\n",
+                           influence, angle, across, f.mean, f.lowest, f.highest);
+                EXPECT_NEAR(f.mean, 1, tolerance);
             }
-            const double C = (constant.front() + constant.back()) / 2;
-            fmt::print("r_e {} nu' {:4}: C = {:.3f} {}\n", influence, nu, C, text);
-            EXPECT_NEAR(constant_now, C, 0.005 * C);
         }
     }
 }
 
-TEST(SlowCalibration, StripFailsAtTheLoadOfFractureMechanicsOverFourfoldRefinement) {
-    for (const double angle : {0.0, 15.0, 30.0, 45.0}) {
-        for (const int across : {20, 40, 80}) {
-            const Failure f = failure({.across = across, .angle = angle});
-            fmt::print("{:2} degrees, {} across: K at failure / K_Ic = {:.3f} [{:.3f} {:.3f}]\n", angle,
-                       across, f.mean, f.lowest, f.highest);
-            EXPECT_NEAR(f.mean, 1, angle == 0 || angle == 45 ? 0.075 : 0.18);
+TEST(SlowStrip, ACentreCrackFailsAtTheSameIntensity) {
+    for (const double influence : {2.1, 3.1}) {
+        for (const double angle : {0.0, 45.0}) {
+            const Failure f =
+                failure({.across = 48, .angle = angle, .influence = influence, .centre = true});
+            fmt::print("r_e {}, {:2} degrees, centre crack: K at failure / K_Ic = {:.3f}\n", influence, angle,
+                       f.mean);
+            EXPECT_NEAR(f.mean, 1, influence > 3 ? 0.05 : 0.1);
         }
-    }
-}
-
-TEST(SlowCalibration, ACentreCrackFailsAtTheSameIntensity) {
-    for (const double angle : {0.0, 45.0}) {
-        const Failure f = failure({.across = 48, .angle = angle, .centre = true});
-        fmt::print("{:2} degrees, centre crack: K at failure / K_Ic = {:.3f}\n", angle, f.mean);
-        EXPECT_NEAR(f.mean, 1, 0.1);
     }
 }
 

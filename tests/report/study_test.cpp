@@ -67,6 +67,23 @@ TEST(Study, WarnsWhereTheFailureLoadMovesByMoreThanFivePerCent) {
     EXPECT_NE(still.caption.find("moves by −3.3 %"), std::string::npos) << still.caption;
 }
 
+TEST(Study, WarnsWhereThePeakLoadMovesThoughTheFirstBreakDoesNot) {
+    const auto with_peak = [](double spacing, double peak, bool separates) {
+        StudyRun r = run(spacing, 4e7);
+        r.summary->events.peak_load->load = peak;
+        if (separates) r.summary->events.separation = r.summary->events.peak_load;
+        return r;
+    };
+    const Convergence moving = judge_convergence({with_peak(1, 5e7, true), with_peak(0.5, 5.5e7, true)});
+    EXPECT_TRUE(moving.warns);
+    EXPECT_NE(moving.caption.find("first break moves by 0.0 %, the peak load by +10.0 %, from"),
+              std::string::npos)
+        << moving.caption;
+    EXPECT_FALSE(judge_convergence({with_peak(1, 5e7, true), with_peak(0.5, 5.2e7, true)}).warns);
+    const Convergence hanging = judge_convergence({with_peak(1, 5e7, true), with_peak(0.5, 9e7, false)});
+    EXPECT_FALSE(hanging.warns) << hanging.caption;
+}
+
 TEST(Study, JudgesEachCriterionByItself) {
     const Convergence c =
         judge_convergence({run(2, 4e7, "fixed strain"), run(1, 3e7, "fixed strain"),

@@ -61,6 +61,16 @@ TEST(ReadScene, ParametersMayUseThoseBeforeThem) {
               "s.toml:5:1: error: [params] x: the name has a meaning of its own in expressions");
 }
 
+TEST(ReadScene, WholeNumbersMayBeExpressions) {
+    const auto with = [](const std::string& fps) {
+        return small("[run]", "[movie]\nfps = " + fps + "\n[run]");
+    };
+    EXPECT_EQ(parse_scene(with("\"5 * spacing / (1 m)\""), "s.toml").movie.fps, 20);
+    EXPECT_EQ(answer(with("\"spacing / (1.5 m)\"")).substr(0, 66),
+              "s.toml:25:7: error: [movie] fps needs a whole number; found 2.6666");
+    EXPECT_EQ(answer(with("2.5")), "s.toml:25:7: error: [movie] fps needs a whole number; found a number");
+}
+
 TEST(ReadScene, MaxTimeIsNotNeededWhereUntilIsATime) {
     const std::string text = small("until = \"separation + 0.5 s\"\nmax_time = \"60 s\"", "until = \"2 ms\"");
     EXPECT_EQ(parse_scene(text, "s.toml").run.max_time, 0.002);
