@@ -65,6 +65,14 @@ TEST(FilmPlan, EventsThatDidNotHappenAreLeftOut) {
     EXPECT_EQ(plan.poster, 49);
 }
 
+TEST(FilmPlan, ALoadUnderWhichNothingBreaksHasNoPeakToBeShown) {
+    Events e = events();
+    e.first_break.reset();
+    e.separation.reset();
+    const FilmPlan plan = plan_film(two_seconds(), e, {}, 0, 2);
+    EXPECT_EQ(frame_of(plan, EventName::peak_load), 50);
+}
+
 TEST(FilmPlan, ASlowSpanBeginsAFifthOfItBeforeTheEvent) {
     MovieSpec movie = two_seconds();
     movie.slow = {{{EventName::first_break, 0}, 0.5, 0.05}};

@@ -103,7 +103,7 @@ TEST(SlowStrip, FailsAtTheLoadOfFractureMechanicsOverFourfoldRefinement) {
     for (const double influence : {2.1, 3.1}) {
         for (const double angle : {0.0, 45.0, 15.0, 30.0}) {
             const bool calibrated = angle == 0 || angle == 45;
-            const double tolerance = influence > 3 ? calibrated ? 0.05 : 0.1 : calibrated ? 0.08 : 0.16;
+            const double tolerance = influence > 3 ? calibrated ? 0.05 : 0.15 : calibrated ? 0.08 : 0.16;
             for (const int across : {20, 40, 80}) {
                 const Failure f = failure({.across = across, .angle = angle, .influence = influence});
                 fmt::print("r_e {}, {:2} degrees, {} across: K at failure / K_Ic = {:.3f} [{:.3f} {:.3f}]\n",
