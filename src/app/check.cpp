@@ -21,9 +21,9 @@ namespace {
 /// What is found out about a scene by building it.
 struct Facts {
     Estimate estimate;
-    std::optional<double> period;  ///< of the first mode (s)
-    double damping_ratio = 0;      ///< of that mode
-    bool period_left_out = false;  ///< for the time it would take
+    std::optional<double> period;           ///< of the first mode (s)
+    double damping_ratio = 0;               ///< of that mode
+    bool period_left_out = false;           ///< for the time it would take
     std::optional<std::string> collapse{};  ///< a static run's, in its first load steps
 };
 
@@ -94,7 +94,8 @@ void add_spacing_note(const Scene& scene, const Built<2>& built, std::vector<std
     const auto clamp = std::ranges::find_if(holds, [](const Hold& h) { return h.axes[0] && h.axes[1]; });
     if (built.model.bonds_cut == 0 && clamp == holds.end()) return;
     notes.push_back(fmt::format(
-        "break_strain: the strain at {} grows as the particles get smaller, so the load at first break depends "
+        "break_strain: the strain at {} grows as the particles get smaller, so the load at first break "
+        "depends "
         "on the spacing; hibi converge shows how much",
         built.model.bonds_cut > 0 ? "the tip of a notch" : fmt::format("the support \"{}\"", clamp->name)));
 }

@@ -97,8 +97,9 @@ std::string Simulation<Dim>::collapse_message(const std::string& when, int parti
                             model_.bodies[model_.particles.body[particle]].name, X.x(), X.y());
     }
     if (broken_ > 0 || way_out.empty()) return text;
-    return text + fmt::format("; it buckles, or bears no more: try {}; method = \"explicit\" shows the motion",
-                              way_out);
+    return text +
+           fmt::format("; it buckles, or bears no more: try {}; method = \"explicit\" shows the motion",
+                       way_out);
 }
 
 /// Within the last step towards equilibrium, to the place where a bond passes its limit.

@@ -42,7 +42,8 @@ TEST(Grid, TheSameQuantityIsTheSamePointHoweverItIsWritten) {
     std::ofstream(file) << scene;
     const auto names = [&](const std::vector<std::string>& texts) {
         std::vector<std::string> list;
-        for (const StudyPoint& p : distinct_points(grid_points(file, read_grid(texts)))) list.push_back(p.name);
+        for (const StudyPoint& p : distinct_points(grid_points(file, read_grid(texts))))
+            list.push_back(p.name);
         return list;
     };
     using Names = std::vector<std::string>;

@@ -51,7 +51,8 @@ name = "tip"
 where = "x > 40 m - )" +
            spacing + R"("
 force = [0, "-80 MN"]
-ramp = ")" + ramp +
+ramp = ")" +
+           ramp +
            R"("
 [run]
 )" + run;
@@ -136,9 +137,10 @@ TEST(StaticRun, FirstBreaksUnderTheLoadOfTheDampedExplicitRun) {
     const Outcome still =
         run(folder, "static",
             cantilever(statics + "max_time = \"80 s\"\nuntil = \"first_break\"\n", "4 m", "80 s"));
-    const Outcome moving = run(folder, "explicit",
-                               "damping = \"quasi-static\"\n" +
-                                   cantilever("max_time = \"80 s\"\nuntil = \"first_break\"\n", "4 m", "80 s"));
+    const Outcome moving =
+        run(folder, "explicit",
+            "damping = \"quasi-static\"\n" +
+                cantilever("max_time = \"80 s\"\nuntil = \"first_break\"\n", "4 m", "80 s"));
     ASSERT_EQ(still.answer.status, 0) << still.answer.out;
     ASSERT_EQ(moving.answer.status, 0) << moving.answer.out;
     EXPECT_NEAR(moving.first_break_load() / still.first_break_load(), 1, 0.01);
@@ -186,9 +188,9 @@ TEST(StaticRun, BreaksAllAtOnceWhereThatIsAskedFor) {
 // 5000 particles, so that there is work for three threads.
 TEST(StaticRun, SameBitsOnOneTwoAndThreeThreads) {
     const TemporaryFolder folder;
-    const std::string scene = cantilever(
-        statics + "load_steps = 2\nmax_time = \"40 s\"\nuntil = \"first_break + 5 ms\"\n", "0.4 m", "40 s",
-        "0.01");
+    const std::string scene =
+        cantilever(statics + "load_steps = 2\nmax_time = \"40 s\"\nuntil = \"first_break + 5 ms\"\n", "0.4 m",
+                   "40 s", "0.01");
     std::vector<std::string> hashes;
     for (const char* threads : {"1", "2", "3"}) {
         const Outcome r = run(folder, std::string("on") + threads, scene,
@@ -242,10 +244,11 @@ TEST(StaticRun, WhatHasNoEquilibriumFromTheFirstMomentOnSaysSo) {
     const std::string scene = column(2, 8, "-1 TN", statics, "");
     const Outcome r = run(folder, "column", scene);
     EXPECT_EQ(r.answer.status, 1) << r.answer.out;
-    EXPECT_TRUE(matches(r.answer.out,
-                        "column.toml: error: no equilibrium under .* % of what acts from the first moment on "
-                        "\\(gravity, and loads without a ramp\\): body \"column\" gives way, most of all at .*; "
-                        "it buckles, or bears no more: try a smaller load, or less gravity"))
+    EXPECT_TRUE(
+        matches(r.answer.out,
+                "column.toml: error: no equilibrium under .* % of what acts from the first moment on "
+                "\\(gravity, and loads without a ramp\\): body \"column\" gives way, most of all at .*; "
+                "it buckles, or bears no more: try a smaller load, or less gravity"))
         << r.answer.out;
     const Answer check = call(HIBI_PROGRAM " check " + (folder.path() / "column.toml").string());
     EXPECT_EQ(check.status, 0);
@@ -257,11 +260,13 @@ TEST(StaticRun, WhereNothingBreaksEverythingSaysSo) {
     const Outcome r =
         run(folder, "bending", cantilever(statics + "max_time = \"40 s\"\n", "4 m", "400 s"), "");
     ASSERT_EQ(r.answer.status, 0) << r.answer.out;
-    EXPECT_TRUE(matches(r.answer.out, "first break      -\npeak load        t = 40.00 s .*\nseparation       -\n"))
+    EXPECT_TRUE(
+        matches(r.answer.out, "first break      -\npeak load        t = 40.00 s .*\nseparation       -\n"))
         << r.answer.out;
-    EXPECT_TRUE(matches(r.answer.out,
-                        "warning: nothing broke: in the end the most strained bond is at 1[0-9] % of its limit; "
-                        "raise the load, or max_time"))
+    EXPECT_TRUE(
+        matches(r.answer.out,
+                "warning: nothing broke: in the end the most strained bond is at 1[0-9] % of its limit; "
+                "raise the load, or max_time"))
         << r.answer.out;
     const auto holds = [&](const char* file, const char* words) {
         std::ifstream in(r.folder / file);

@@ -50,7 +50,8 @@ TEST(Sweep, RunsAllCombinationsOnceAndGoesOnWhereOneFails) {
     for (const char* name : {"sweep.csv", "sheet.png", "plot.png", "plot.svg"})
         EXPECT_TRUE(fs::exists(study / name)) << name;
     for (const char* line : {"table            ", "plot             ", "sheet            "})
-        EXPECT_NE(first.out.find("\n" + std::string(line) + study.string() + "/"), std::string::npos) << first.out;
+        EXPECT_NE(first.out.find("\n" + std::string(line) + study.string() + "/"), std::string::npos)
+            << first.out;
     EXPECT_TRUE(first.out.ends_with("/sheet.png\n")) << first.out;
     EXPECT_EQ(hibi("reproduce " + (study / "sweep.csv").string()).out.substr(0, 10), "hibi sweep");
 
