@@ -21,8 +21,10 @@ namespace {
 /// What is found out about a scene by building it.
 struct Facts {
     Estimate estimate;
-    std::optional<double> period;  ///< of the first mode (s)
-    double damping_ratio = 0;      ///< of that mode
+    std::optional<double> period;           ///< of the first mode (s)
+    double damping_ratio = 0;               ///< of that mode
+    bool period_left_out = false;           ///< for the time it would take
+    std::optional<std::string> collapse{};  ///< a static run's, in its first load steps
 };
 
 std::string si(double value, const std::string& unit) { return format_si(value, unit, 4, true); }
@@ -82,10 +84,33 @@ void add_ramp_notes(const Built<2>& built, double period, double ratio, std::vec
     }
 }
 
+/// Corners between what is held and what is free, and tips of notches, where strain grows without end as the
+/// particles get smaller: with a limit of the strain alone, so does what breaks first.
+void add_spacing_note(const Scene& scene, const Built<2>& built, std::vector<std::string>& notes) {
+    const bool limited = std::ranges::any_of(
+        scene.materials, [](const Material& m) { return m.break_strain && !m.fracture_energy; });
+    if (!limited) return;
+    const auto& holds = built.physics.holds;
+    const auto clamp = std::ranges::find_if(holds, [](const Hold& h) { return h.axes[0] && h.axes[1]; });
+    if (built.model.bonds_cut == 0 && clamp == holds.end()) return;
+    notes.push_back(fmt::format(
+        "break_strain: the strain at {} grows as the particles get smaller, so the load at first break "
+        "depends "
+        "on the spacing; hibi converge shows how much",
+        built.model.bonds_cut > 0 ? "the tip of a notch" : fmt::format("the support \"{}\"", clamp->name)));
+}
+
 /// What a user might not expect of a scene that is right.
 std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, const Facts& facts) {
     std::vector<std::string> notes;
+    if (facts.collapse) notes.push_back(*facts.collapse);
     if (facts.period) add_ramp_notes(built, *facts.period, facts.damping_ratio, notes);
+    if (facts.period_left_out)
+        notes.push_back(fmt::format(
+            "the first mode was not looked for, so ramps are not judged: {} particles would take too long; a "
+            "larger spacing has nearly the same period",
+            built.model.particles.count()));
+    add_spacing_note(scene, built, notes);
     const auto primary =
         std::find_if(scene.loads.begin(), scene.loads.end(), [](const LoadSpec& l) { return l.primary; });
     const bool forced = primary != scene.loads.end() &&
@@ -230,7 +255,8 @@ void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& 
         {"loads", loads},
         {"stages", simulation.stage_names()},
         {"time_step", simulation.time_step()},
-        {"stable_time_step", simulation.stable_time_step()},
+        {"stable_time_step",
+         scene.run.statics ? ordered_json() : ordered_json(simulation.stable_time_step())},
         {"first_period", facts.period ? ordered_json(*facts.period) : ordered_json()},
         {"estimate",
          {{"steps", estimate.steps},
@@ -251,9 +277,11 @@ int check_command(const CheckOptions& options) {
     require_separable(scene, Watch<2>(simulation));
     require_steps_that_end(scene, simulation);
     Facts facts;
-    facts.period = first_period(built, simulation);
+    facts.period_left_out = period_takes_too_long(simulation, options.most_particles_for_period);
+    if (!facts.period_left_out) facts.period = first_period(built, simulation);
     if (facts.period) facts.damping_ratio = damping_ratio(simulation, *facts.period);
     facts.estimate = estimate_run(scene, built, simulation);
+    if (simulation.broken() == 0) facts.collapse = simulation.collapse();
     // The stages are asked of a simulation that has made steps, the values are those of the scene.
     (options.json ? print_json : print_report)(scene, built, simulation, facts);
     return 0;

@@ -1,14 +1,16 @@
 #pragma once
 #include <filesystem>
 
+#include "app/quasi_static.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {
 
 struct CheckOptions {
-    std::filesystem::path scene;
+    std::filesystem::path scene{};
     Overrides overrides{};
     bool json = false;
+    int most_particles_for_period = hibi::most_particles_for_period;  ///< beyond, the first mode is left out
 };
 
 /// `hibi check`: reads and builds a scene and prints what would be modelled: counts, supports, loads, the

@@ -33,7 +33,7 @@ const char* criterion_of(const Scene& scene) {
 
 /// Coarse to fine. Throws std::invalid_argument where nothing is refined.
 std::vector<StudyPoint> sorted_points(const ConvergeOptions& options, const Grid& grid) {
-    std::vector<StudyPoint> points = grid_points(options.scene, grid);
+    std::vector<StudyPoint> points = distinct_points(grid_points(options.scene, grid));
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < points.size(); ++k)
         order.emplace_back(-spacing_of(read_scene(options.scene, points[k].overrides)), k);

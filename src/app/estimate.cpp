@@ -14,7 +14,7 @@ Estimate estimate_run(const Scene& scene, const Built<2>& built, Simulation<2>& 
     const auto begin = Clock::now();
     std::int64_t done = 0;
     double seconds = 0;
-    while (done < estimate.steps && seconds < 0.1) {
+    while (done < estimate.steps && seconds < 0.1 && !simulation.collapse()) {
         simulation.step();
         ++done;
         seconds = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -12,19 +12,29 @@
 
 namespace hibi {
 
-namespace {
-constexpr int most_particles = 20000;
-}
-
 RampBias ramp_bias(double ratio, double periods) {
     using std::numbers::pi;
     return {ratio / (pi * periods), std::exp(-2 * pi * ratio * periods) / (2 * pi * periods)};
 }
 
+namespace {
+
+bool is_damped_by_ratio(const Simulation<2>& simulation) {
+    const auto& damping = simulation.physics().damping;
+    return damping && damping->ratio;
+}
+
+}  // namespace
+
+bool period_takes_too_long(const Simulation<2>& simulation, int most_particles) {
+    return !simulation.physics().statics && !is_damped_by_ratio(simulation) &&
+           simulation.model().particles.count() > most_particles;
+}
+
 std::optional<double> first_period(const Built<2>& built, const Simulation<2>& simulation) {
-    if (const auto& damping = simulation.physics().damping; damping && damping->ratio)
-        return 4 * std::numbers::pi * *damping->ratio / simulation.damping_rate();  // found for it already
-    if (built.model.particles.count() > most_particles || free_particle(built)) return {};
+    if (is_damped_by_ratio(simulation))  // found for it already
+        return 4 * std::numbers::pi * *simulation.physics().damping->ratio / simulation.damping_rate();
+    if (simulation.physics().statics || free_particle(built)) return {};
     try {
         return 2 * std::numbers::pi / first_frequency(built.model, simulation.held());
     } catch (const std::runtime_error&) {

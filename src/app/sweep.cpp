@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <thread>
@@ -134,6 +135,41 @@ std::vector<StudyPoint> grid_points(const fs::path& scene, const Grid& grid) {
     return points;
 }
 
+namespace {
+
+/// The same for every way of writing a value: 0.4s for "0.4", "0.4 s" and "400 ms".
+std::string plain_value(double value, const std::string& unit) {
+    const double size = std::abs(value);
+    // A prefix of m/s or kg/m^3 would not help.
+    if ((size >= 0.1 && size < 1000) || size == 0 || unit.empty() || unit.find_first_of("/^ ") != unit.npos)
+        return fmt::format("{:.10g}{}", value, unit);
+    return format_si(value, unit, 10, true);
+}
+
+}  // namespace
+
+std::vector<StudyPoint> distinct_points(const std::vector<StudyPoint>& points) {
+    std::vector<StudyPoint> distinct;
+    std::set<std::vector<double>> seen;
+    for (StudyPoint point : points) {
+        try {
+            std::vector<double> values;
+            std::string name;
+            const Scene scene = read_scene(point.scene, point.overrides);
+            for (const auto& [parameter, text] : point.overrides) {
+                const auto& p = *std::ranges::find(scene.params, parameter, &Parameter::name);
+                values.push_back(p.value);
+                name += (name.empty() ? "" : ",") + file_name(parameter + "=" + plain_value(p.value, p.unit));
+            }
+            if (!seen.insert(values).second) continue;
+            point.name = name;
+        } catch (const SceneErrors&) {  // told by run_study, with those of all others
+        }
+        distinct.push_back(point);
+    }
+    return distinct;
+}
+
 std::vector<StudyRun> run_study(const std::vector<StudyPoint>& points, const StudyOptions& options) {
     const std::vector<Scene> scenes = read_scenes(points);
     std::vector<StudyRun> runs(points.size());
@@ -257,7 +293,8 @@ int sweep_command(SweepOptions options) {
         options.study.folder = fs::path("out") / (options.scene.stem().string() + "_sweep");
     const fs::path& folder = options.study.folder;
     require_study_folder(folder, options.study.force);
-    const std::vector<StudyRun> runs = run_study(grid_points(options.scene, grid), options.study);
+    const std::vector<StudyRun> runs =
+        run_study(distinct_points(grid_points(options.scene, grid)), options.study);
 
     std::vector<std::string> words{"hibi", "sweep", options.scene.string()};
     for (const std::string& text : options.grid) words.insert(words.end(), {"-p", text});
@@ -272,7 +309,8 @@ int sweep_command(SweepOptions options) {
     write_file(folder / "sweep.csv", study_csv(runs, to_comment(provenance)));
     write_file(folder / "sweep.json", json);
     write_sheet(runs, folder, title, options.renderer, provenance);
-    if (const std::optional<Chart> chart = study_chart(runs)) {
+    const std::optional<Chart> chart = study_chart(runs);
+    if (chart) {
         const FigureStyle style{.theme = "light"};
         write_png(folder / "plot.png", chart_image({*chart}, style),
                   {.text = to_texts(provenance), .small = true, .dpi = style.dpi});
@@ -281,7 +319,14 @@ int sweep_command(SweepOptions options) {
         fmt::print(stderr, "no plot: it needs one or two parameters that vary, and two runs that succeed\n");
     }
     fmt::print("{}", options.json ? json : study_table(runs));
-    if (!options.json) fmt::print("{}\n", (folder / "sheet.png").string());
+    if (!options.json) {
+        const auto made = [&](const char* what, const char* file) {
+            fmt::print("{:<16} {}\n", what, (folder / file).string());
+        };
+        made("table", "sweep.csv");
+        if (chart) made("plot", "plot.png");
+        made("sheet", "sheet.png");
+    }
     return study_status(runs);
 }
 

@@ -29,6 +29,10 @@ struct StudyPoint {
 /// All combinations, the last parameter varying fastest; names are those of folders.
 std::vector<StudyPoint> grid_points(const std::filesystem::path& scene, const Grid& grid);
 
+/// Each combination of values once, in the order given, however they are written: "0.4" and "400 ms" of a
+/// time are the same point, under the same name. Combinations that make no scene stay as they are.
+std::vector<StudyPoint> distinct_points(const std::vector<StudyPoint>& points);
+
 struct StudyOptions {
     std::filesystem::path folder;
     int jobs = 0;           ///< runs at once; 0: one per core

@@ -58,10 +58,12 @@ Path edge(const Symbol& symbol, double away) {
 }
 
 /// The ground: a line with slanted strokes behind it, spread evenly so that they begin and end alike.
-void draw_ground(cairo_t* cairo, const Symbol& symbol, const Path& path, double unit, double depth) {
+void draw_ground(cairo_t* cairo, const Symbol& symbol, const Path& path, double unit, double depth,
+                 int least_strokes = 2) {
     const double total = path.length.back();
     cairo_set_line_width(cairo, std::max(1.0, 1.3 * unit));
-    const int strokes = std::max(2, static_cast<int>(std::lround(total / std::max(4.0, 9 * unit))));
+    const int strokes =
+        std::max(least_strokes, static_cast<int>(std::lround(total / std::max(4.0, 9 * unit))));
     const Point tangent = {-symbol.outward[1], symbol.outward[0]};
     for (int k = 0; k < strokes; ++k) {
         const Point root = path.at(total * (k + 0.5) / strokes);
@@ -72,6 +74,14 @@ void draw_ground(cairo_t* cairo, const Symbol& symbol, const Path& path, double 
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     for (const Point& p : path.points) cairo_line_to(cairo, p[0], p[1]);
     cairo_stroke(cairo);
+}
+
+/// Under a support of a few small particles full strokes would be longer than what they hang on: there they
+/// are shorter, and three.
+void draw_clamp(cairo_t* cairo, const Symbol& symbol, double unit) {
+    const Path path = edge(symbol, 0);
+    const double depth = hatch_depth * unit, most = std::max(3.0, 0.45 * path.length.back());
+    draw_ground(cairo, symbol, path, unit, std::min(depth, most), depth > most ? 3 : 2);
 }
 
 void draw_rollers(cairo_t* cairo, const Symbol& symbol, double unit) {
@@ -149,8 +159,7 @@ void draw_symbol(cairo_t* cairo, const Symbol& symbol, const Theme& theme, doubl
     if (symbol.kind == Symbol::Kind::notch) draw_notch(cairo, symbol, unit);
     if (symbol.kind == Symbol::Kind::arrow) draw_arrows(cairo, symbol, unit);
     if (symbol.kind == Symbol::Kind::roller) draw_rollers(cairo, symbol, unit);
-    if (symbol.kind == Symbol::Kind::clamp)
-        draw_ground(cairo, symbol, edge(symbol, 0), unit, hatch_depth * unit);
+    if (symbol.kind == Symbol::Kind::clamp) draw_clamp(cairo, symbol, unit);
 }
 
 }  // namespace hibi

@@ -212,6 +212,17 @@ Settled Equilibrium<Dim>::find(Model<Dim>& model, ElasticLaw<Dim>& law, const st
     const int n = model.particles.count();
     Settled settled;
     const auto give_up = [&] {
+        double farthest = 0;
+        const auto look_for_farthest = [&](const auto& motion_of) {
+            for (int i = 0; i < n; ++i) {
+                const double motion = motion_of(i);
+                if (motion > farthest) farthest = motion, settled.gave_way = i;
+            }
+        };
+        look_for_farthest([&](int i) { return (u[i] - start[i]).norm(); });
+        // Stuck at once: where the step that was not taken would have led.
+        if (settled.gave_way < 0)
+            look_for_farthest([&](int i) { return step_.template segment<Dim>(Dim * i).norm(); });
         u = start;
         law.forces(model);
         return settled;

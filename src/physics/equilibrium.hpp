@@ -26,6 +26,7 @@ struct Settled {
     bool smooth = true;    ///< no tangent on the way was indefinite: the body did not snap to another shape
     int newton_steps = 0;
     double residual = 0;  ///< out-of-balance force over the applied and reaction forces [-]
+    int gave_way = -1;    ///< where no equilibrium was found: the particle that had gone farthest by then
 };
 
 /// Static equilibrium of the moment-matched model under dead loads, by Newton's method on the potential

@@ -81,8 +81,9 @@ class Simulation {
     const std::optional<Failure>& failure() const { return failure_; }
     /// Largest bond strain over its limit [-]; 0 where nothing can break.
     double closest_to_breaking() const;
-    /// Statics only: set when there is no equilibrium beyond the current load, and says so. The state is the
-    /// last equilibrium; further steps change nothing.
+    /// Statics only: set when no equilibrium is found beyond the current load, and says where the body gives
+    /// way and, before the first break, what to try. The state is the last equilibrium; further steps change
+    /// nothing.
     const std::optional<std::string>& collapse() const { return collapse_; }
     /// Why a run at this state is likely to have gone wrong, for messages.
     std::string likely_cause() const;
@@ -130,10 +131,11 @@ class Simulation {
     void static_step();
     std::vector<std::string> static_stage_names() const;
     void relax();
+    std::string collapse_message(const std::string& when, int particle, const std::string& way_out) const;
     void go_back_to_next_break();
     void raise_loads();
     void pause();
-    void approach(double to);
+    int approach(double to);
     void find_first_break(double from, double lower, double upper);
     Settled settle(double load_time, double share = 1, const std::function<bool()>& enough = {});
     StaticState static_state() const;

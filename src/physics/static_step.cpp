@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <stdexcept>
 
 #include "base/parallel.hpp"
 #include "base/units.hpp"
@@ -34,15 +33,18 @@ void Simulation<Dim>::start_statics() {
     sum_forces();
     const StaticState before = static_state();
     double done = 0, part = 1;
-    while (done < 1) {
-        if (settle(0, done + part).found)
+    while (done < 1 && !collapse_) {
+        const Settled settled = settle(0, done + part);
+        if (settled.found)
             done += part;
         else
             part /= 2;
         if (part < smallest_part)
-            throw std::runtime_error(
-                "no equilibrium under what acts from the first moment on: gravity, and loads "
-                "without a ramp");
+            collapse_ = collapse_message(
+                fmt::format("under {:.3g} % of what acts from the first moment on (gravity, and loads "
+                            "without a ramp)",
+                            100 * (done + smallest_part)),
+                settled.gave_way, "a smaller load, or less gravity");
         part = std::min(part, 1 - done);
     }
     count_work(before, false);
@@ -80,8 +82,24 @@ void Simulation<Dim>::relax() {
     if (settled.found || settled.stopped)
         count_work(before, false);
     else
-        collapse_ = fmt::format("no equilibrium after the break at t = {}: the body collapses",
-                                format_si(load_time_, "s", 4));
+        collapse_ = collapse_message(fmt::format("after the break at t = {}", format_si(load_time_, "s", 4)),
+                                     settled.gave_way, "");
+}
+
+/// `way_out`: what to try instead; before the first break only, since later a collapse is an outcome.
+template <int Dim>
+std::string Simulation<Dim>::collapse_message(const std::string& when, int particle,
+                                              const std::string& way_out) const {
+    std::string text = fmt::format("no equilibrium {}", when);
+    if (particle >= 0) {
+        const Vec3 X = place(particle);
+        text += fmt::format(": body \"{}\" gives way, most of all at ({:.4g}, {:.4g}) m",
+                            model_.bodies[model_.particles.body[particle]].name, X.x(), X.y());
+    }
+    if (broken_ > 0 || way_out.empty()) return text;
+    return text +
+           fmt::format("; it buckles, or bears no more: try {}; method = \"explicit\" shows the motion",
+                       way_out);
 }
 
 /// Within the last step towards equilibrium, to the place where a bond passes its limit.
@@ -111,12 +129,14 @@ void Simulation<Dim>::raise_loads() {
     const double lower = highest_utilisation();
     const StaticState before = static_state();
     smooth_ = true;
-    approach(next);
+    const int gave_way = approach(next);
     if (const double upper = highest_utilisation(); upper > 1)
         find_first_break(before.load_time, lower, upper);
     else if (load_time_ < next)
-        collapse_ = fmt::format("no equilibrium beyond the load at t = {}: the body collapses",
-                                format_si(load_time_, "s", 4));
+        collapse_ = collapse_message(
+            fmt::format("found between the loads at t = {} and {}", format_si(load_time_, "s", 4),
+                        format_si(load_time_ + smallest_part * (next - before.load_time), "s", 4)),
+            gave_way, "more load_steps or a smaller load");
     count_work(before, smooth_);
     if (load_time_ > time_)
         time_ = load_time_;
@@ -131,19 +151,24 @@ void Simulation<Dim>::pause() {
     time_ += left > 0 ? std::min(pause, left / 4) : pause;
 }
 
-/// Raises the loads as far as there is equilibrium, in parts if need be.
+/// Raises the loads as far as there is equilibrium, in parts if need be. Returns the particle that gave way
+/// when it was last not found, or -1.
 template <int Dim>
-void Simulation<Dim>::approach(double to) {
+int Simulation<Dim>::approach(double to) {
     const double from = load_time_;
     double done = 0, part = 1;
+    int gave_way = -1;
     while (done < 1 && part >= smallest_part) {
-        if (settle(done + part < 1 ? from + (done + part) * (to - from) : to).found) {
+        const Settled settled = settle(done + part < 1 ? from + (done + part) * (to - from) : to);
+        if (settled.found) {
             done += part;
             part = std::min(2 * part, 1 - done);
         } else {
             part /= 2;
+            gave_way = settled.gave_way;
         }
     }
+    return gave_way;
 }
 
 /// Between loads that all bonds bear and the present ones, which some do not, finds the first at which a bond

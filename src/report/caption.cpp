@@ -67,7 +67,10 @@ Caption caption_of(const RunSummary& s, const Topology& topology, const std::str
                                      under(*e.separation)));
     if (!e.first_break) sentence(c.text, "No bond breaks");
     sentence(c.text, fmt::format("Energy balance within {:.2g} %", 100 * s.worst_imbalance));
-    if (!s.trusted) sentence(c.text, "This run is not to be trusted");
+    if (s.stopped)
+        sentence(c.text, "The run stopped early, so it is not to be trusted");
+    else if (!s.trusted)
+        sentence(c.text, "This run is not to be trusted");
     sentence(c.text,
              fmt::format("Computed and drawn by hibi {}, scene {}", s.version, s.scene_hash.substr(0, 12)));
 

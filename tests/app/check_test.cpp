@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/new.hpp"
+#include "scene/everything.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace hibi {
 namespace {
@@ -39,7 +42,66 @@ TEST(Check, JsonHoldsTheSameNumbers) {
     EXPECT_GT(json["stages"].size(), 2u);
     EXPECT_GT(json["stable_time_step"].get<double>(), json["time_step"].get<double>());
     EXPECT_GT(json["estimate"]["steps"].get<int>(), 1000);
-    EXPECT_TRUE(json["notes"].empty());
+    EXPECT_EQ(json["notes"].size(), 1u) << json["notes"];
+}
+
+class CheckOf : public testing::Test {
+ protected:
+    nlohmann::json of(const std::string& scene, CheckOptions options = {}) {
+        options.scene = folder_.path() / "s.toml";
+        options.json = true;
+        std::ofstream(options.scene) << scene;
+        testing::internal::CaptureStdout();
+        EXPECT_EQ(check_command(options), 0);
+        std::fflush(stdout);
+        return nlohmann::json::parse(testing::internal::GetCapturedStdout());
+    }
+    static std::string with(const std::string& from, const std::string& to) {
+        std::string text = small_scene;
+        return text.replace(text.find(from), from.size(), to);
+    }
+    const TemporaryFolder folder_;
+};
+
+bool has_note(const nlohmann::json& json, const std::string& words) {
+    return std::ranges::any_of(json["notes"], [&](const auto& note) {
+        return note.template get<std::string>().find(words) != std::string::npos;
+    });
+}
+
+TEST_F(CheckOf, AStaticSceneHasNeitherStableTimeStepNorFastRamps) {
+    EXPECT_TRUE(of(small_scene)["stable_time_step"].is_number());
+    const std::string fast = with("ramp = \"40 s\"", "ramp = \"1 s\"");
+    EXPECT_TRUE(has_note(of(fast), "first period"));
+    const auto json = of(fast + "method = \"static\"\n");
+    EXPECT_TRUE(json["stable_time_step"].is_null());
+    EXPECT_TRUE(json["first_period"].is_null());
+    EXPECT_FALSE(has_note(json, "first period") || has_note(json, "first mode")) << json["notes"];
+    EXPECT_NEAR(json["time_step"].get<double>(), 60.0 / 50, 1e-12);
+}
+
+TEST_F(CheckOf, SaysWhereTheFirstModeWouldTakeTooLong) {
+    const std::string words = "the first mode was not looked for, so ramps are not judged: 50 particles";
+    const auto at = of(small_scene, {.most_particles_for_period = 50});
+    EXPECT_TRUE(at["first_period"].is_number());
+    EXPECT_FALSE(has_note(at, words)) << at["notes"];
+    const auto beyond = of(small_scene, {.most_particles_for_period = 49});
+    EXPECT_TRUE(beyond["first_period"].is_null());
+    EXPECT_TRUE(has_note(beyond, words)) << beyond["notes"];
+    // Damped by a ratio, the run needs it anyhow.
+    const auto damped =
+        of("damping = \"quasi-static\"\n" + std::string(small_scene), {.most_particles_for_period = 49});
+    EXPECT_EQ(damped["first_period"], at["first_period"]);
+    EXPECT_FALSE(has_note(damped, words)) << damped["notes"];
+}
+
+TEST_F(CheckOf, RemarksThatABreakStrainAtAClampOrNotchDependsOnTheSpacing) {
+    EXPECT_TRUE(has_note(of(small_scene), "break_strain: the strain at the support \"clamp\" grows"));
+    const std::string notch = "[[notch]]\nline = [[\"20 m\", \"20 m\"], [\"20 m\", \"10 m\"]]\n";
+    EXPECT_TRUE(has_note(of(small_scene + notch), "break_strain: the strain at the tip of a notch grows"));
+    const std::string words = "break_strain: ";
+    EXPECT_FALSE(has_note(of(with("break_strain = 0.1", "fracture_energy = 100")), words));
+    EXPECT_FALSE(has_note(of(with("hold = [\"x\", \"y\"]", "hold = [\"x\"]")), words));
 }
 
 class New : public testing::Test {

@@ -7,6 +7,7 @@
 #include "app/converge.hpp"
 #include "app/process.hpp"
 #include "physics/damage.hpp"
+#include "scene/everything.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace hibi {
@@ -31,6 +32,28 @@ TEST(Grid, HasEveryCombinationUnderANameOfItsOwn) {
     const std::vector<StudyPoint> alike = grid_points("s.toml", read_grid({"a=1 m,1m"}));
     EXPECT_EQ(alike[0].name, "a=1m");
     EXPECT_EQ(alike[1].name, "a=1m_2");
+}
+
+TEST(Grid, TheSameQuantityIsTheSamePointHoweverItIsWritten) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "s.toml";
+    std::string scene = small_scene;
+    scene.replace(scene.find("[params]"), 8, "[params]\nramp = \"40 s\"\nforce = \"6 MN\"\nshare = 0.5");
+    std::ofstream(file) << scene;
+    const auto names = [&](const std::vector<std::string>& texts) {
+        std::vector<std::string> list;
+        for (const StudyPoint& p : distinct_points(grid_points(file, read_grid(texts))))
+            list.push_back(p.name);
+        return list;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names({"ramp=0.4,0.4 s,400ms,40 s/100,4"}), (Names{"ramp=0.4s", "ramp=4s"}));
+    EXPECT_EQ(names({"ramp=400ms"}), (Names{"ramp=0.4s"}));
+    EXPECT_EQ(names({"force=6e6,6000 kN,-7 MN,2*3 MN"}), (Names{"force=6MN", "force=-7MN"}));
+    EXPECT_EQ(names({"share=0.50,.5,1/2,0.25"}), (Names{"share=0.5", "share=0.25"}));
+    EXPECT_EQ(names({"spacing=2,4 m", "ramp=1 s,1"}), (Names{"spacing=2m,ramp=1s", "spacing=4m,ramp=1s"}));
+    // What makes no scene keeps its name: it is told with all other mistakes.
+    EXPECT_EQ(names({"spacing=3m,2m,2 m"}), (Names{"spacing=3m", "spacing=2m"}));
 }
 
 TEST(Process, TellsHowAProgramEnded) {

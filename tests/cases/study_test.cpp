@@ -49,6 +49,10 @@ TEST(Sweep, RunsAllCombinationsOnceAndGoesOnWhereOneFails) {
     EXPECT_NEAR(rows[0]["first_break_load"].get<double>() / 5.80e7, 1, 0.02);
     for (const char* name : {"sweep.csv", "sheet.png", "plot.png", "plot.svg"})
         EXPECT_TRUE(fs::exists(study / name)) << name;
+    for (const char* line : {"table            ", "plot             ", "sheet            "})
+        EXPECT_NE(first.out.find("\n" + std::string(line) + study.string() + "/"), std::string::npos)
+            << first.out;
+    EXPECT_TRUE(first.out.ends_with("/sheet.png\n")) << first.out;
     EXPECT_EQ(hibi("reproduce " + (study / "sweep.csv").string()).out.substr(0, 10), "hibi sweep");
 
     // Again: what is there is kept, what is damaged is run once more.

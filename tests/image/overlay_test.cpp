@@ -110,6 +110,30 @@ TEST(Overlay, NothingReachesTheEdgeOfThePictureEvenWithLongTexts) {
         }
 }
 
+TEST(Overlay, HatchesUnderAFewSmallParticlesAreNoLongerThanWhatTheyHangOn) {
+    const View view;
+    // How far below the particles' edge a clamp of so many, 6 pixels wide each, is drawn (pixels).
+    const auto depth = [&](int particles) {
+        Symbol clamp;
+        clamp.kind = Symbol::Kind::clamp;
+        clamp.radius = 3;
+        clamp.outward = {0, 1};
+        for (int k = 0; k < particles; ++k) clamp.points.push_back({600.0 + 6 * k, 500});
+        OverlayFrame frame{.pixels_per_metre = 30};
+        const Image without = drawn(view, frame);
+        frame.symbols.push_back(clamp);
+        const Image with = drawn(view, frame);
+        int lowest = 503;
+        for (int y = 503; y < 560; ++y)
+            if (differences(with, without, 400, y, 1200, y + 1) > 0) lowest = y;
+        return lowest - 503;
+    };
+    const double unit = symbol_unit(view);
+    EXPECT_NEAR(depth(40), 13 * unit, 2.5);
+    EXPECT_NEAR(depth(8), 13 * unit, 2.5);
+    EXPECT_NEAR(depth(2), 0.45 * 12, 2.5);
+}
+
 TEST(Overlay, LeavesTheBodyAlone) {
     const View view;
     const PixelRect plot = Overlay(view, content()).plot();

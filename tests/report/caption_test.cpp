@@ -44,6 +44,19 @@ TEST(Caption, TellsWhatHappenedAndHowFarToTrustIt) {
     EXPECT_NE(caption_of(wrong, plate(), "", "").text.find("not to be trusted"), std::string::npos);
 }
 
+TEST(Caption, SaysThatNothingBrokeOrThatTheRunStoppedEarly) {
+    RunSummary s = broken();
+    s.events.first_break.reset();
+    s.events.separation.reset();
+    const Caption c = caption_of(s, plate(), "", "");
+    EXPECT_NE(c.text.find(" No bond breaks. Energy balance"), std::string::npos) << c.text;
+    EXPECT_TRUE(c.alternative.ends_with("It is loaded downwards at the right.")) << c.alternative;
+    s.stopped = "no equilibrium";
+    s.trusted = false;
+    EXPECT_NE(caption_of(s, plate(), "", "").text.find("The run stopped early, so it is not to be trusted."),
+              std::string::npos);
+}
+
 TEST(Caption, DescribesThePictureForThoseWhoCannotSeeIt) {
     EXPECT_EQ(caption_of(broken(), plate(), "", "").alternative,
               "A body 6 m wide and 3 m high, drawn as 18 discs. It is clamped at the left. It is loaded "

@@ -102,6 +102,18 @@ TEST(ReportPage, WarnsInWordsOfARunThatCannotBeTrusted) {
     EXPECT_NE(report_page(c).find("stopped early</strong>: step 3: boom"), std::string::npos);
 }
 
+TEST(ReportPage, SaysThatNothingBroke) {
+    PageContent c = content();
+    EXPECT_EQ(report_page(c).find("No bond broke"), std::string::npos);
+    c.summary.events.first_break.reset();
+    EXPECT_NE(
+        report_page(c).find("<p class=\"outcome\">No bond broke. Peak load at 1.00 s under 5.00 N.</p>"),
+        std::string::npos);
+    c.summary.events.peak_load.reset();
+    EXPECT_NE(report_page(c).find("<p class=\"outcome\">No bond broke.</p>"), std::string::npos);
+    EXPECT_EQ(count(report_page(c), ">did not happen</td>"), 3u);
+}
+
 TEST(ReportPage, WithoutAFilmThePosterStandsThere) {
     PageContent c = content();
     c.film.clear();

@@ -57,6 +57,20 @@ TEST(Study, CsvAndJsonHoldEveryRunAndLeaveEmptyWhatIsNotKnown) {
     EXPECT_EQ(json["runs"][2]["error"], "no, \"really\" wrong");
 }
 
+TEST(Study, TheTableMarksAPeakThatNothingBrokeUnder) {
+    StudyRun whole = run(1, 0);
+    whole.summary->events.peak_load = Event{.time = 1, .load = 2e7};
+    whole.mode = "nothing breaks";
+    const std::vector<std::string> table = lines(study_table({run(2, 4e7), whole}));
+    ASSERT_EQ(table.size(), 3u);
+    const std::size_t column = table[0].find("peak load");
+    ASSERT_NE(column, std::string::npos);
+    EXPECT_EQ(table[1].substr(column, 9), "40.00 MN ") << "it broke: the peak is what it bore";
+    EXPECT_EQ(table[2].substr(column, 10), "> 20.00 MN") << table[2];
+    EXPECT_EQ(table[2].substr(table[0].find("first break"), 2), "- ");
+    EXPECT_TRUE(table[2].ends_with("nothing breaks"));
+}
+
 TEST(Study, WarnsWhereTheFailureLoadMovesByMoreThanFivePerCent) {
     const Convergence moving = judge_convergence({run(2, 4e7), run(1, 3.7e7), run(0.5, 3.4e7)});
     EXPECT_TRUE(moving.warns);
