@@ -121,7 +121,8 @@ TEST(SlowStrip, ACentreCrackFailsAtTheSameIntensity) {
                 failure({.across = 48, .angle = angle, .influence = influence, .centre = true});
             fmt::print("r_e {}, {:2} degrees, centre crack: K at failure / K_Ic = {:.3f}\n", influence, angle,
                        f.mean);
-            EXPECT_NEAR(f.mean, 1, influence > 3 ? 0.05 : 0.1);
+            // Half of it is 7 spacings long: a tip half a spacing further on is 3.5 % in K.
+            EXPECT_NEAR(f.mean, 1, influence > 3 ? 0.07 : 0.09);
         }
     }
 }
