@@ -25,6 +25,8 @@ std::string words(const Moment& moment) {
 /// Unit of the symbols for a text of 1: smaller than in a film, where it is 1/12, since pictures are small
 /// here.
 constexpr double symbol_share = 1.0 / 20;
+/// Part of the height that an arrow may take: a flat body has one above and one below.
+constexpr double arrow_share = 0.2;
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
@@ -47,7 +49,8 @@ DrawingStyle still_style(const Scene& scene, const RunReader& run, const std::st
     style.view.width = 2 * (width / 2);
     style.view.height = height_for(style.view, run, width, most_height);
     style.view.stroke = 1;
-    style.view.stroke = symbol_share * text / symbol_unit(style.view);
+    const double longest = arrow_share * style.view.height / symbol_reach(Symbol::Kind::arrow, style.view);
+    style.view.stroke = std::min(symbol_share * text / symbol_unit(style.view), longest);
     return style;
 }
 
