@@ -92,8 +92,10 @@ std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
     std::vector<KeyMoment> moments;
     const double begin = run.states().front().time, end = run.states().back().time;
     for (const Moment& wanted : scene.strip.at) {
-        const std::optional<double> time = run.summary().events.time_of(wanted);
+        const Events& events = run.summary().events;
+        const std::optional<double> time = events.time_of(wanted);
         if (!time || *time < begin || *time > end) continue;
+        if (wanted.event == EventName::peak_load && !events.first_break) continue;  // as large as the scene made it
         const std::string label = words(wanted);
         const auto same = std::ranges::find(moments, *time, &KeyMoment::time);
         if (same == moments.end())
