@@ -112,11 +112,13 @@ std::vector<FrameDifference> compare_frames(const Frames& expected, const Frames
     return list;
 }
 
-/// By how much it is beyond, or how near to, the limits.
+/// By how much it is beyond, or how near to, the limits: at most 1 where all hold.
 double badness(const FrameDifference& frame, const Tolerance& tolerance) {
     double worst = 0;
-    for (const Measure& m : measures(frame.pixels, tolerance))
-        worst = std::max(worst, m.limit > 0 ? m.value / m.limit : m.value > 0 ? INFINITY : 0.0);
+    for (const Measure& m : measures(frame.pixels, tolerance)) {
+        const double share = m.limit > 0 ? m.value / m.limit : m.value > 0 ? INFINITY : 0.0;
+        worst = std::max(worst, m.holds ? std::min(1.0, share) : share);
+    }
     return worst;
 }
 

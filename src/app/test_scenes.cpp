@@ -228,11 +228,10 @@ void renew_picture(const fs::path& file, const Image& image, std::vector<std::st
 }
 
 void update(SceneResult& r, const DrawnTest& drawn, Update what) {
-    const auto missing = [&] {
-        return !r.reference || std::ranges::any_of(r.moments, [](const MomentResult& m) {
-            return m.complaint.starts_with("has no reference");
-        });
+    const auto lacks_reference = [](const MomentResult& m) {
+        return m.complaint.starts_with("has no reference");
     };
+    const auto missing = [&] { return !r.reference || std::ranges::any_of(r.moments, lacks_reference); };
     if (what == Update::changed ? r.passes() : what == Update::missing && !missing()) return;
     const fs::path folder = reference_folder(r.file);
     Reference renewed = drawn.reference;
@@ -268,6 +267,10 @@ void update(SceneResult& r, const DrawnTest& drawn, Update what) {
     write_reference(folder, renewed);
     r.updates.push_back("wrote " + (folder / "references.json").string());
     r.complaint.clear();
+    if (what == Update::missing) {
+        std::erase_if(r.moments, lacks_reference);
+        return;
+    }
     r.physics.clear();
     r.moments.clear();
 }
@@ -275,11 +278,9 @@ void update(SceneResult& r, const DrawnTest& drawn, Update what) {
 std::string line_of(const SceneResult& r) {
     std::string text = fmt::format("{:<4} {:<24} ", r.passes() ? "ok" : "FAIL", r.name);
     if (!r.error.empty()) return text + r.error;
-    if (!r.updates.empty()) {
-        text += "updated";
-        for (const std::string& update : r.updates) text += "\n       " + update;
-        return text;
-    }
+    std::string updates;
+    for (const std::string& update : r.updates) updates += "\n       " + update;
+    if (r.passes() && !updates.empty()) return text + "updated" + updates;
     if (!r.complaint.empty())
         return text + fmt::format(
                           "{}; look at the pictures that hibi test --update missing {} writes, and commit "
@@ -297,7 +298,7 @@ std::string line_of(const SceneResult& r) {
         text += fmt::format("\n       {}: {}", m.moment, m.complaint);
         if (!m.page.empty()) text += "\n         " + m.page.string();
     }
-    return text;
+    return text + updates;
 }
 
 std::string to_json(const std::vector<SceneResult>& results) {

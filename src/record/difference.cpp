@@ -234,6 +234,7 @@ std::string physics_verdict(const RunDifference& d, const RunTolerance& toleranc
     if (d.curve && d.curve->first_beyond)
         consider(*d.curve->first_beyond,
                  fmt::format("the load is off, by {} at most", format_si(d.curve->largest, "N")));
+    if (what.empty() && !loads.empty()) return "physics changed: " + loads.substr(2);
     if (what.empty())
         consider(std::min(d.expected_end, d.actual_end),
                  fmt::format("it ends at {}, not at {}", format_si(d.actual_end, "s", 4),

@@ -32,8 +32,8 @@ struct DifferencePage {
     std::vector<DifferenceTable> tables;
 };
 
-/// One offline HTML page: both pictures under a slider, flickering or beside each other, heat map, the worst
-/// tile enlarged, and all numbers. Light and dark. It asks nothing of a network.
+/// One offline HTML page: both pictures under a slider or flickering, heat map, the worst tile
+/// enlarged, and all numbers. Light and dark. It asks nothing of a network.
 std::string difference_page(const DifferencePage& content);
 
 }  // namespace hibi

@@ -1,6 +1,6 @@
 // Defects put into pictures at the size of a test, which the tolerant rule must catch, and what rounds
 // differently on other processors, which it must let pass. Prints the table of scenes/TESTING.md:
-//     build/release/tests/test_cases --gtest_filter='SlowDefects.*'
+//     build/release/tests/test_cases --gtest_filter='Slow*Defects.*'
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -140,11 +140,21 @@ std::vector<Defect> defects_of(const Scene& scene, const RunReader& run) {
     return defects;
 }
 
+/// With the parameters of its test.
 void catch_all(const fs::path& file) {
     const TemporaryFolder folder;
     const fs::path run = folder.path() / "run";
-    ASSERT_EQ(call(HIBI_PROGRAM " run -q --no-pictures " + file.string() + " -o " + run.string()).status, 0);
-    const Scene scene = read_scene(file);
+    Overrides overrides;
+    std::string words;
+    for (const std::string& text : read_scene(file).test.params) {
+        const std::size_t equals = text.find('=');
+        overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+        words += " -p '" + text + "'";
+    }
+    const Answer answer =
+        call(HIBI_PROGRAM " run -q --no-pictures " + file.string() + words + " -o " + run.string());
+    ASSERT_EQ(answer.status, 0) << answer.out;
+    const Scene scene = read_scene(file, overrides);
     // A body that lacks a bond does not pass, whatever its picture.
     const Reference reference = draw_test(scene, RunReader(run), {}).reference;
     Reference lacking = reference;
@@ -171,10 +181,10 @@ std::vector<fs::path> scenes() {
 
 TEST(Defects, AreCaughtInACoarsePlate) { catch_all(HIBI_SOURCE_DIR "/scenes/bending_coarse.toml"); }
 
-TEST(SlowDefects, AreCaughtInEveryScene) {
-    ASSERT_GE(scenes().size(), 11u);
-    for (const fs::path& file : scenes()) catch_all(file);
-}
+class SceneDefects : public testing::TestWithParam<fs::path> {};
+TEST_P(SceneDefects, AreCaught) { catch_all(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Slow, SceneDefects, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return scene.param.stem().string(); });
 
 /// What the pictures of `scenes` are on another processor, as far as llvmpipe lets one pretend to have it.
 void pass_all(const std::string& scenes, const std::string& environment) {

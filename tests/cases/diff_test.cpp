@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-Image picture(int bright = 0) {
-    Image image(96, 64);
-    for (int y = 0; y < 64; ++y)
-        for (int x = 0; x < 96; ++x)
+Image picture(int bright = 0, int width = 96, int height = 64) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
             for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = static_cast<std::uint8_t>(x + y + 20 * c);
     for (int k = 0; k < bright; ++k) image.pixel(40 + k % 10, 30 + k / 10)[2] = 255;
     return image;
@@ -71,6 +71,10 @@ TEST_F(Diff, SaysWhetherPicturesAreIdenticalWithinToleranceOrDifferent) {
     answer = diff("a.png other.png --junit j/unit.xml");
     EXPECT_EQ(answer.status, 3);
     EXPECT_EQ(answer.out.substr(0, 22), "different (worst tile ") << answer.out;
+    EXPECT_NE(answer.out.find(", at (32, 16);"), std::string::npos) << answer.out;  // x, then y
+    EXPECT_NE(
+        read_file(at("out/diff/difference.html")).find("<tr class=\"wrong\"><th scope=\"row\">worst tile"),
+        std::string::npos);
     for (const char* name : {"expected.png", "actual.png", "heat.png", "flicker.apng", "difference.html"})
         EXPECT_TRUE(fs::exists(at("out/diff") / name)) << name;
     EXPECT_EQ(pixel_hash(read_png(at("out/diff/actual.png"))), pixel_hash(picture(30)));
@@ -99,9 +103,46 @@ TEST_F(Diff, ComparesFoldersAndFindsTheWorstFrame) {
     const Answer answer = diff("a b");
     EXPECT_EQ(answer.status, 3);
     EXPECT_EQ(answer.out.find("different (2 of 3 frames, worst 2.png: "), 0u) << answer.out;
+    EXPECT_NE(read_file(at("out/diff/difference.html")).find("1 of 3 are identical."), std::string::npos);
+    // The order of the names decides nothing.
+    for (const char* name : {"c/0.png", "c/1.png", "c/2.png"}) write(name, picture(name[2] == '0' ? 30 : 0));
+    EXPECT_EQ(diff("a c").out.find("different (1 of 3 frames, worst 0.png: "), 0u);
     write("a/3.png", picture());
     refuses("a b", "b: lacks 1 of 4 frames, the first of them 3.png", "compare films of the same length");
     refuses("b a", "b: lacks 1 of 4 frames", "draw this one again");
+}
+
+// Each measure is weighed by its limit, and one that holds is never worse than one that does not.
+TEST_F(Diff, TheWorstFrameIsTheOneFurthestBeyondItsLimits) {
+    const auto brighter = [](int by) {
+        Image image = picture(0, 128, 96);
+        for (std::size_t k = 0; k < image.bgra.size(); k += 4)
+            for (int c = 0; c < 3; ++c)
+                image.bgra[k + c] = static_cast<std::uint8_t>(image.bgra[k + c] / 2 + by);
+        return image;
+    };
+    // 16 steps: 26.7 times the limit of the mean. Two pixels: 163 per megapixel, 20.3 times theirs.
+    Image two = brighter(0);
+    two.pixel(5, 5)[2] = two.pixel(9, 5)[2] = 255;
+    for (const char* name : {"a/0.png", "a/1.png"}) write(name, brighter(0));
+    write("b/0.png", brighter(16));
+    write("b/1.png", two);
+    EXPECT_EQ(diff("a b").out.find("different (2 of 2 frames, worst 0.png: "), 0u) << diff("a b").out;
+
+    // One pixel is allowed in so small a picture, though it is 81 per megapixel.
+    two = brighter(0);
+    two.pixel(5, 5)[2] = 55;  // from 25
+    write("b/0.png", brighter(2));
+    write("b/1.png", two);
+    EXPECT_EQ(diff("a b").out.find("different (1 of 2 frames, worst 0.png: "), 0u) << diff("a b").out;
+}
+
+TEST_F(Diff, OfOddSizesLeavesOutALineOfTheFlickerAlone) {
+    write("a.png", picture(0, 95, 63));
+    write("b.png", picture(30, 95, 63));
+    EXPECT_EQ(diff("a.png b.png").status, 3);
+    EXPECT_TRUE(fs::exists(at("out/diff/flicker.apng")));
+    EXPECT_EQ(read_png(at("out/diff/heat.png")).width, 95);
 }
 
 TEST_F(Diff, RefusesWhatCannotBeCompared) {
@@ -129,6 +170,7 @@ TEST_F(Diff, RefusesWhatCannotBeCompared) {
     fs::create_directories(at("here"));
     fs::copy(at("a.png"), at("here/expected.png"));
     refuses("here/expected.png a.png -o here", "here/expected.png: would be written over", "-o");
+    refuses("a.png here/expected.png -o here", "here/expected.png: would be written over", "-o");
     std::ofstream(at("frames.json")) << "[{]";
     refuses("frames.json frames.json", "frames.json: not a list of frames", "");
 }
@@ -179,12 +221,22 @@ TEST_F(Diff, TwoRunsThatDifferByOneBondsStrengthAreToldApartByThatBond) {
     Answer answer = diff("plain strong");
     EXPECT_EQ(answer.status, 3);
     EXPECT_EQ(answer.out.find(moment), 0u) << answer.out << moment;
-    answer = diff("strong plain --json");
+    // Neither was drawn: of an earlier comparison no picture stays.
+    write("a.png", picture());
+    ASSERT_EQ(diff("a.png a.png").status, 0);
+    answer = diff("strong plain --json --junit unit.xml");
     EXPECT_EQ(answer.status, 3);
+    EXPECT_FALSE(fs::exists(at("out/diff/heat.png")));
+    EXPECT_TRUE(fs::exists(at("out/diff/difference.html")));
+    EXPECT_NE(read_file(at("unit.xml")).find("failures=\"1\""), std::string::npos);
     const Json json = Json::parse(answer.out);
     EXPECT_EQ(json["verdict"].get<std::string>().find(moment), 0u) << json["verdict"];
     EXPECT_EQ(json["states"]["first_bond"]["particles"], Json({first.first, first.second}));
     EXPECT_EQ(json["states"]["first_bond"]["actual_time"], first.time);
+    const Events expected = RunReader(at("strong")).summary().events;
+    EXPECT_EQ(json["curve"]["peak_load"]["expected"], expected.peak_load->load);
+    EXPECT_EQ(json["curve"]["first_break_load"]["expected"], expected.first_break->load);
+    EXPECT_NE(expected.peak_load->load, expected.first_break->load);
     EXPECT_EQ(diff("plain plain").out.substr(0, 16), "same (identical)");
 }
 
@@ -232,6 +284,16 @@ TEST_F(Diff, TellsAChangedDrawingFromChangedPhysics) {
     EXPECT_EQ(answer.out.find("drawing changed, physics the same (2 of 2 frames"), 0u) << answer.out;
     EXPECT_EQ(diff("dark/frames.json light/frames.json").status, 3);
     EXPECT_EQ(diff("dark/frames.json dark/frames.json").status, 0);
+    // That one has a frame more is a finding.
+    const std::string listed = read_file(at("light/frames.json"));
+    Json fewer = Json::parse(listed);
+    fewer.erase(fewer.size() - 1);
+    std::ofstream(at("light/frames.json")) << fewer;
+    answer = diff("dark light --junit unit.xml");
+    EXPECT_EQ(answer.status, 3);
+    EXPECT_EQ(answer.out.find("drawing changed, physics the same (1 frames, not 2)"), 0u) << answer.out;
+    EXPECT_NE(read_file(at("unit.xml")).find("failures=\"1\""), std::string::npos);
+    std::ofstream(at("light/frames.json")) << listed;
     fs::remove(at("light/frames/000001.png"));
     refuses("dark/frames.json light/frames.json", "000001.png: is missing", "hibi render");
     refuses("dark light", "000001.png: is missing", "hibi render");

@@ -109,9 +109,17 @@ TEST_F(ImageTest, TellsChangedDrawingFromChangedPhysicsAndKeepsTheOldPicture) {
     EXPECT_EQ(test("").status, 0);
     EXPECT_FALSE(fs::exists(at("out/test/plate")));
 
+    // What passes is not renewed.
+    answer = test("--update changed");
+    EXPECT_EQ(answer.status, 0);
+    EXPECT_TRUE(has(answer, "ok   plate")) << answer.out;
+    EXPECT_FALSE(has(answer, "updated")) << answer.out;
+
     edit("break_strain = 0.1", "break_strain = 0.099");
-    answer = test("");
+    answer = test("--junit junit.xml");
     EXPECT_EQ(answer.status, 3);
+    EXPECT_NE(read_file(at("junit.xml")).find("name=\"physics\" time="), std::string::npos);
+    EXPECT_NE(read_file(at("junit.xml")).find("<failure message=\"physics changed first"), std::string::npos);
     EXPECT_TRUE(has(answer, "physics changed first at t = ")) << answer.out;
     EXPECT_TRUE(has(answer, " earlier; load at first break -0.85 %")) << answer.out;
     edit("spacing = \"4 m\"", "spacing = \"5 m\"");
@@ -155,12 +163,99 @@ TEST_F(ImageTest, DamagedReferencesNeverPass) {
     EXPECT_TRUE(has(answer, "references.json: not the references of a test")) << answer.out;
 }
 
+TEST_F(ImageTest, OnlyWhatIsMissingIsAddedAndTheRestIsStillJudged) {
+    ASSERT_EQ(test("--update all").status, 0);
+    const std::string old = pixel_hash(read_png(reference("end.png")));
+    edit("\"small\"", "\"smell\"");
+    fs::remove(reference("first_break.png"));
+    Answer answer = test("--update missing");
+    EXPECT_EQ(answer.status, 3) << answer.out;
+    EXPECT_TRUE(has(answer, "new references/plate/first_break.png")) << answer.out;
+    EXPECT_TRUE(has(answer, "end: ")) << answer.out;
+    EXPECT_FALSE(has(answer, "has no reference")) << answer.out;
+    EXPECT_EQ(pixel_hash(read_png(reference("end.png"))), old);
+    EXPECT_FALSE(fs::exists(reference("end.old.png")));
+    answer = test("");
+    EXPECT_EQ(answer.status, 3);
+    EXPECT_FALSE(has(answer, "first_break: ")) << answer.out;
+}
+
+TEST_F(ImageTest, MomentsThatCameOrWentAreTold) {
+    ASSERT_EQ(test("--update all").status, 0);
+    edit("frames = [\"first_break\", \"end\"]", "frames = [\"start\", \"end\"]");
+    Answer answer = test("");
+    EXPECT_EQ(answer.status, 3);
+    EXPECT_TRUE(has(answer, "start: has no reference")) << answer.out;
+    EXPECT_TRUE(has(answer, "first_break: has a reference, but did not happen or is not in [test] frames"))
+        << answer.out;
+    fs::create_directories(at("out/test/plate"));
+    std::ofstream(at("out/test/plate/notes.txt")) << "of somebody";
+    answer = test("--update changed");
+    EXPECT_EQ(answer.status, 0) << answer.out;
+    EXPECT_TRUE(has(answer, "no longer used references/plate/first_break.png")) << answer.out;
+    EXPECT_TRUE(fs::exists(reference("start.png")));
+    EXPECT_TRUE(fs::exists(reference("first_break.old.png")));
+    EXPECT_TRUE(fs::exists(at("out/test/plate/notes.txt")));
+    EXPECT_EQ(test("").status, 0);
+
+    edit("[test]\n", "[test]\nsize = [160, 90]\n");
+    answer = test("");
+    EXPECT_EQ(answer.status, 3);
+    EXPECT_TRUE(has(answer, "end: one picture has 320 x 180 pixels, the other 160 x 90")) << answer.out;
+}
+
+// A pixel off by one is what another processor rounds; on the renderer of the references it is a change.
+TEST_F(ImageTest, IsExactOnTheRendererOfTheReferencesAndTolerantElsewhere) {
+    ASSERT_EQ(test("--update all").status, 0);
+    Image picture = read_png(reference("end.png"));
+    const std::string old = pixel_hash(picture);
+    picture.pixel(100, 100)[1] ^= 1;
+    write_png(reference("end.png"), picture);
+    std::string list = read_file(reference("references.json"));
+    ASSERT_NE(list.find(old), std::string::npos);
+    list.replace(list.find(old), old.size(), pixel_hash(picture));
+    write_file(reference("references.json"), list);
+    Answer answer = test("");
+    EXPECT_EQ(answer.status, 3);
+    EXPECT_TRUE(has(answer, "end: not identical (worst tile ")) << answer.out;
+    answer = test("--json", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1");
+    EXPECT_EQ(answer.status, 0) << answer.out;
+    EXPECT_EQ(Json::parse(answer.out)[0]["frames"][1]["sameness"], "within tolerance");
+}
+
+TEST_F(ImageTest, ScenesOfOneNameInSeveralFoldersAreAllTested) {
+    fs::create_directories(at("others"));
+    std::string short_run = text_;
+    short_run.replace(short_run.find("first_break + 1 s"), 17, "first_break + 0 s");
+    for (const char* name : {"plate.toml", "wall.toml", "beam.toml"})
+        std::ofstream(at("others") / name) << short_run;
+    ASSERT_EQ(test("others --update all").status, 0);
+    std::ofstream(at("others/wall.toml")) << short_run.replace(short_run.find("small"), 5, "smell");
+    const Answer answer = test("others");
+    EXPECT_EQ(answer.status, 3);
+    std::size_t place = 0;
+    for (const char* line :
+         {"ok   plate ", "ok   beam ", "ok   plate_2 ", "FAIL wall ", "3 of 4 scenes pass"}) {
+        EXPECT_NE(place = answer.out.find(line, place), std::string::npos) << line << answer.out;
+        if (place == std::string::npos) break;
+    }
+    EXPECT_TRUE(fs::exists(at("out/test/wall/end/difference.html")));
+    fs::create_directories(at("empty"));
+    EXPECT_TRUE(has(test("empty"), "empty: holds no scene"));
+}
+
 TEST_F(ImageTest, ARunThatFailsIsNoDifference) {
     ASSERT_EQ(test("--update all").status, 0);
     edit("max_time = \"60 s\"", "max_time = \"60 s\"\ntime_step = \"1 s\"");
     Answer answer = test("");
     EXPECT_EQ(answer.status, 2);  // not a stable time step: the scene is wrong
     EXPECT_TRUE(has(answer, "plate.toml:")) << answer.out;
+
+    // No file may grow beyond a few kilobytes: the run ends, and is not taken for one that differs.
+    edit("\ntime_step = \"1 s\"", "");
+    answer = test("--json", "ulimit -f 8 &&");
+    EXPECT_EQ(answer.status, 1) << answer.out;
+    EXPECT_TRUE(has(answer, "\"pass\": false")) << answer.out;
 }
 
 /// The lines of `text` that begin with `start`, without it.

@@ -6,6 +6,8 @@
 #include <ctime>
 #include <random>
 
+#include "image/theme.hpp"
+
 namespace hibi {
 namespace {
 
@@ -68,6 +70,47 @@ TEST(Difference, FindsAPixelInEveryCornerOfAnySize) {
             }
 }
 
+// A defect on the border of four tiles would count a quarter in each, did they not overlap.
+TEST(Difference, TilesOverlapByHalf) {
+    const Image a = plain(320, 180, 100);
+    Image b = a;
+    for (int y = 48; y < 80; ++y)
+        for (int x = 80; x < 112; ++x) add(b, x, y, 4, 4, 4);
+    const PixelDifference d = difference(a, b);
+    EXPECT_NEAR(d.tile, 4, 1e-12);
+    EXPECT_EQ(d.tile_at, (std::array{80, 48}));
+}
+
+TEST(Difference, APixelIsFarOffBySeventeenInAnyChannel) {
+    const Image a = plain(320, 180, 100);
+    for (int c = 0; c < 3; ++c) {
+        Image b = a;
+        b.pixel(7, 9)[c] = 116;
+        EXPECT_EQ(difference(a, b).far_pixels, 0);
+        b.pixel(7, 9)[c] = 117;
+        const PixelDifference d = difference(a, b);
+        EXPECT_EQ(d.far_pixels, 1);
+        EXPECT_EQ(d.largest, 17);
+        EXPECT_EQ(judge(d, {}), Sameness::tolerated);
+        EXPECT_EQ(judge(d, {.pixels = 0}), Sameness::different);  // who asks for none gets none
+    }
+}
+
+TEST(Difference, WhatReachesALimitHoldsAndDarkerCountsAsBrighter) {
+    const Image a = plain(320, 180, 100), darker = plain(320, 180, 98);
+    const PixelDifference d = difference(a, darker);
+    EXPECT_DOUBLE_EQ(d.mean[1], -2);
+    const Tolerance reached{.tile = 2, .pixels = 0, .mean = 2, .rmse = 2};
+    EXPECT_EQ(judge(d, reached), Sameness::tolerated);
+    Tolerance less = reached;
+    less.tile = 1.99;
+    EXPECT_EQ(judge(d, less), Sameness::different);
+    less = reached, less.mean = 1.99;
+    EXPECT_EQ(judge(d, less), Sameness::different);
+    less = reached, less.rmse = 1.99;
+    EXPECT_EQ(judge(d, less), Sameness::different);
+}
+
 TEST(Difference, EachLimitDecidesByItself) {
     const Image a = plain(320, 180, 100);
     Image tile = a;  // 32 x 32 pixels brighter by 4
@@ -99,6 +142,12 @@ TEST(Difference, OfTransparentPicturesIsTheWorseOverBlackAndWhite) {
     const PixelDifference d = difference(a, b);
     EXPECT_EQ(d.far_pixels, 20);
     EXPECT_EQ(d.largest, 255);
+    EXPECT_NEAR(d.tile, 255 * std::sqrt(20 / 1024.0), 1e-9);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_DOUBLE_EQ(d.mean[c], -255 * 20 / 4096.0);
+        EXPECT_DOUBLE_EQ(d.rmse[c], 255 * std::sqrt(20 / 4096.0));
+    }
+    EXPECT_LT(d.ssim, 1);
     EXPECT_EQ(judge(d, {}), Sameness::different);
     EXPECT_GT(heat_map(a, b, d).pixel(3, 5)[2], 200);
 }
@@ -122,15 +171,34 @@ TEST(Difference, SimilarityIsOneMinusALittleForNoise) {
     EXPECT_LT(difference(a, plain(64, 64, 125)).ssim, 0.5);  // no structure left
 }
 
+// Without structure only the means are compared: (2 a b + c1) / (a^2 + b^2 + c1), c1 = (0.01 * 255)^2.
+TEST(Difference, SimilarityOfEvenGreysIsThatOfTheirMeans) {
+    const Image a = plain(64, 64, 100);
+    const double c1 = 2.55 * 2.55, even = (2 * 100 * 110 + c1) / (100 * 100 + 110 * 110 + c1);
+    EXPECT_NEAR(difference(a, plain(64, 64, 110)).ssim, even, 1e-9);
+    Image b = a;  // one of eight rows of blocks
+    for (int k = 0; k < 8 * 64; ++k) add(b, k % 64, k / 64, 10, 10, 10);
+    EXPECT_NEAR(difference(a, b).ssim, (7 + even) / 8, 1e-9);
+}
+
 TEST(Difference, HeatMapIsBrightWhereItDiffersAndFramesTheTile) {
     const Image a = plain(100, 100, 100);
     Image b = a;
     add(b, 50, 50, 64, 64, 64);
+    add(b, 52, 50, 0, 16, 0);
     const PixelDifference d = difference(a, b);
     const Image heat = heat_map(a, b, d);
-    EXPECT_EQ(heat.pixel(5, 5)[0], 20);     // grey, a fifth
-    EXPECT_GT(heat.pixel(50, 50)[2], 240);  // inferno's bright end
-    EXPECT_EQ(heat.pixel(d.tile_at[0] - 1, 50)[1], 255);
+    EXPECT_EQ(heat.pixel(5, 5)[0], 20);  // grey, a fifth
+    const ColourMap& map = colour_map("inferno");
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(heat.pixel(50, 50)[c], map[255][2 - c]);  // 64 is the bright end
+        EXPECT_EQ(heat.pixel(52, 50)[c], map[127][2 - c]);  // a quarter of it, by the root
+    }
+    const int x0 = d.tile_at[0] - 1, y0 = d.tile_at[1] - 1, x1 = x0 + 33, y1 = y0 + 33;
+    for (int k = 0; k <= 33; ++k)
+        for (const auto& [x, y] : {std::pair(x0 + k, y0), {x0 + k, y1}, {x0, y0 + k}, {x1, y0 + k}})
+            EXPECT_EQ(heat.pixel(x, y)[1], 255) << x << ", " << y;
+    EXPECT_EQ(heat.pixel(x0 + 1, y0 + 1)[1], 20);  // nothing of the tile is hidden
 }
 
 // A film has hundreds of frames: a pair of 1920 x 1080 takes 18 ms of a Zen 3 core, and must stay below 100.
