@@ -233,17 +233,22 @@ void add_compare(CLI::App& app, int& status) {
 }
 
 /// Every threshold of a comparison, its default shown.
-void add_tolerance(Command& command, Tolerance& pixels, RunTolerance& run) {
-    const auto add = [&](const char* name, auto& value, const char* meaning) {
-        command.add_option(name, value, meaning)->check(CLI::NonNegativeNumber)->capture_default_str();
+void add_tolerance(Command& command, TestLimits& limits) {
+    const Tolerance pixels;
+    const RunTolerance run;
+    const auto add = [&](const char* name, auto& limit, auto standard, const char* meaning) {
+        command.add_option(name, limit, meaning)
+            ->check(CLI::NonNegativeNumber)
+            ->default_str(fmt::format("{}", standard));
     };
-    add("--tile", pixels.tile, "worst 32 x 32 tile: RMS difference of luma, in steps of 1/255");
-    add("--pixels", pixels.pixels, "pixels per megapixel with a channel off by more than 16");
-    add("--mean", pixels.mean, "mean signed difference of any channel");
-    add("--rmse", pixels.rmse, "RMS difference of any channel");
-    add("--position", run.position, "difference of positions, in particle spacings");
-    add("--break-steps", run.break_steps, "steps by which a bond may break earlier or later");
-    add("--load", run.load, "difference of loads, in parts of the peak load");
+    add("--tile", limits.tile, pixels.tile, "worst 32 x 32 tile: RMS difference of luma, in steps of 1/255");
+    add("--pixels", limits.pixels, pixels.pixels, "pixels per megapixel with a channel off by more than 16");
+    add("--mean", limits.mean, pixels.mean, "mean signed difference of any channel");
+    add("--rmse", limits.rmse, pixels.rmse, "RMS difference of any channel");
+    add("--position", limits.position, run.position, "difference of positions, in particle spacings");
+    add("--break-steps", limits.break_steps, run.break_steps,
+        "steps by which a bond may break earlier or later");
+    add("--load", limits.load, run.load, "difference of loads, in parts of the peak load");
 }
 
 void add_diff(CLI::App& app, int& status) {
@@ -256,8 +261,12 @@ void add_diff(CLI::App& app, int& status) {
     diff->add_option("-o,--output", o->output, "folder of the pictures and the page")->capture_default_str();
     diff->add_flag("--json", o->json, "print JSON instead of the verdict");
     diff->add_option("--junit", o->junit, "write JUnit XML to this file");
-    add_tolerance(*diff, o->pixels, o->run);
-    diff->callback([o, &status] { status = diff_command(*o); });
+    const auto limits = options_of<TestLimits>();
+    add_tolerance(*diff, *limits);
+    diff->callback([o, limits, &status] {
+        set_limits(*limits, o->pixels, o->run);
+        status = diff_command(*o);
+    });
 }
 
 void add_test(CLI::App& app, int& status) {
@@ -280,7 +289,7 @@ void add_test(CLI::App& app, int& status) {
     test->add_option("--jobs", o->jobs, "scenes at once (default: one per core)")->check(CLI::Range(1, 1024));
     test->add_flag("--json", o->json, "print JSON instead of lines");
     test->add_option("--junit", o->junit, "write JUnit XML to this file");
-    add_tolerance(*test, o->pixels, o->run);
+    add_tolerance(*test, o->limits);
     add_drawing(*test, o->renderer);
     add_quiet(*test, o->quiet);
     test->callback([o, &status] { status = test_command(*o); });

@@ -445,6 +445,16 @@ void refuse_inputs_as_output(const DiffOptions& options) {
 
 }  // namespace
 
+void set_limits(const TestLimits& given, Tolerance& pixels, RunTolerance& run) {
+    pixels.tile = given.tile.value_or(pixels.tile);
+    pixels.pixels = given.pixels.value_or(pixels.pixels);
+    pixels.mean = given.mean.value_or(pixels.mean);
+    pixels.rmse = given.rmse.value_or(pixels.rmse);
+    run.position = given.position.value_or(run.position);
+    run.break_steps = given.break_steps.value_or(run.break_steps);
+    run.load = given.load.value_or(run.load);
+}
+
 Image picture_to_compare(const fs::path& file) {
     return as_input("compare whole PNG pictures", [&] {
         if (const int depth = png_bit_depth(file); depth > 8)

@@ -7,6 +7,7 @@
 #include "image/difference.hpp"
 #include "record/difference.hpp"
 #include "report/difference_page.hpp"
+#include "scene/scene.hpp"
 
 namespace hibi {
 
@@ -24,6 +25,9 @@ struct DiffOptions {
 /// verdict. Returns 0 where both are the same, 3 where not. Throws std::invalid_argument naming the file for
 /// what cannot be compared.
 int diff_command(const DiffOptions& options);
+
+/// Sets the limits that are given, and leaves the others.
+void set_limits(const TestLimits& given, Tolerance& pixels, RunTolerance& run);
 
 /// A picture that is to be compared, 8 bits per channel. Throws std::invalid_argument naming the file, what
 /// is wrong with it and a way out.

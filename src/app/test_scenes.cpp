@@ -40,6 +40,8 @@ struct SceneResult {
     std::string name;  ///< of its folders
     Overrides overrides{};
     Scene scene{};
+    Tolerance pixels{};
+    RunTolerance run{};
     std::optional<Reference> reference{};
     std::string error{};      ///< the run failed, and why
     std::string complaint{};  ///< why it fails beyond single moments
@@ -100,6 +102,8 @@ std::vector<SceneResult> read_all(const TestOptions& options) {
         try {
             r.overrides = overrides_of(read_scene(file).test);
             r.scene = read_scene(file, r.overrides);
+            for (const TestLimits& limits : {r.scene.test.tolerance, options.limits})
+                set_limits(limits, r.pixels, r.run);
             if (options.update != Update::all) r.reference = read_reference(reference_folder(file));
         } catch (const std::exception& error) {
             complaints += fmt::format("{}{}", complaints.empty() ? "" : "\n", error.what());
@@ -163,13 +167,13 @@ void compare_moment(const SceneResult& r, const DrawnTest& drawn, const Referenc
         m.complaint = error.what();
         return;
     }
-    m.sameness = judge(m.pixels, options.pixels);
+    m.sameness = judge(m.pixels, r.pixels);
     if (m.sameness == Sameness::identical) return;
     if (r.exact && m.sameness == Sameness::tolerated)
         m.complaint = fmt::format("not identical (worst tile {:.2g}), on the renderer of the references",
                                   m.pixels.tile);
     else if (m.sameness == Sameness::different)
-        m.complaint = beyond(m.pixels, options.pixels);
+        m.complaint = beyond(m.pixels, r.pixels);
     if (m.complaint.empty()) return;
     const fs::path folder = options.output / r.name / frame.moment;
     fs::create_directories(folder);
@@ -181,7 +185,7 @@ void compare_moment(const SceneResult& r, const DrawnTest& drawn, const Referenc
                         .expected_name = file.string(),
                         .actual_name = "now",
                         .pictures = page_pictures("", picture, actual, m.pixels),
-                        .tables = {pixel_table(m.pixels, options.pixels)}};
+                        .tables = {pixel_table(m.pixels, r.pixels)}};
     page.tables.push_back({"Renderer and processor",
                            "",
                            {{"references", r.reference->key.renderer + ", " + r.reference->key.cpu, "", {}},
@@ -196,7 +200,7 @@ void compare(SceneResult& r, const DrawnTest& drawn, const TestOptions& options)
         return;
     }
     r.exact = r.reference->key == drawn.reference.key;
-    r.physics = physics_change(*r.reference, drawn.reference, options.run);
+    r.physics = physics_change(*r.reference, drawn.reference, r.run);
     for (const ReferenceFrame& frame : drawn.reference.frames) {
         MomentResult m{.moment = frame.moment};
         compare_moment(r, drawn, frame, m, options);

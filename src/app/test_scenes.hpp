@@ -24,8 +24,7 @@ struct TestOptions {
     int jobs = 0;  ///< scenes at once; 0: one per core
     bool json = false;
     bool quiet = false;
-    Tolerance pixels{};
-    RunTolerance run{};
+    TestLimits limits{};  ///< these go before those of a scene
     RendererOptions renderer{};
 };
 

@@ -331,6 +331,22 @@ void read_movie(const Value& document, ReadContext& context, MovieSpec& movie) {
     if (const auto megabytes = block->quantity("gif_limit")) movie.gif_limit = 1e6 * *megabytes;
 }
 
+void read_limits(BlockReader& block, TestLimits& limits) {
+    TestLimits::each(limits, [&]<class T>(const char* key, std::optional<T>& limit) {
+        std::optional<double> value;
+        if constexpr (std::is_same_v<T, int>)
+            set(value, block.integer(key));
+        else
+            value = block.quantity(key);
+        if (!value) return;
+        if (*value >= 0 && *value <= 1e9)
+            limit = static_cast<T>(*value);
+        else
+            block.fail(key,
+                       fmt::format("[test] tolerance {} needs to be from 0 to 1e9; found {}", key, *value));
+    });
+}
+
 void read_test(const Value& document, ReadContext& context, TestSpec& test) {
     auto block = single(document, context, "test");
     if (!block) return;
@@ -345,6 +361,7 @@ void read_test(const Value& document, ReadContext& context, TestSpec& test) {
             block->fail(fmt::format("params/{}", i),
                         fmt::format("[test] params: \"{}\" is not of the form name=value", test.params[i]),
                         "for example: \"spacing=2 m\"");
+    if (auto limits = block->table("tolerance")) read_limits(*limits, test.tolerance);
 }
 
 }  // namespace

@@ -114,10 +114,30 @@ struct StripSpec {
     std::vector<Moment> at = key_events();
 };
 
+/// Limits of `hibi test` that a scene sets itself, as Tolerance and RunTolerance have them; what is absent is
+/// that of the command.
+struct TestLimits {
+    std::optional<double> tile{}, pixels{}, mean{}, rmse{}, position{}, load{};
+    std::optional<int> break_steps{};
+
+    /// Each limit and the name of its key.
+    template <class Self, class Visit>
+    static void each(Self& self, Visit&& visit) {
+        visit("tile", self.tile);
+        visit("pixels", self.pixels);
+        visit("mean", self.mean);
+        visit("rmse", self.rmse);
+        visit("position", self.position);
+        visit("break_steps", self.break_steps);
+        visit("load", self.load);
+    }
+};
+
 struct TestSpec {
     int width = 320, height = 180;  ///< (pixels)
     std::vector<Moment> frames = key_events();
     std::vector<std::string> params{};  ///< "name=value" for the test alone
+    TestLimits tolerance{};
 };
 
 /// A whole experiment, checked; SI. Defaults stand here and in the structs it collects, once.

@@ -254,6 +254,11 @@ std::string write_scene(const Scene& scene) {
     out.line("size", fmt::format("[{}, {}]", scene.test.width, scene.test.height));
     out.line("frames", moments(scene.test.frames));
     out.line("params", names(scene.test.params));
+    std::string limits;
+    TestLimits::each(scene.test.tolerance, [&](const char* key, const auto& limit) {
+        if (limit) limits += fmt::format("{}{} = {}", limits.empty() ? "" : ", ", key, *limit);
+    });
+    if (!limits.empty()) out.line("tolerance", "{ " + limits + " }");
     return std::move(out.text);
 }
 

@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "app/diff.hpp"
 #include "app/junit.hpp"
 #include "app/recorded_cantilever.hpp"
 #include "image/png.hpp"
 #include "record/files.hpp"
+#include "scene/keys.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace hibi {
@@ -31,7 +37,8 @@ Reference reference() {
 TEST(Reference, IsReadAsItWasWritten) {
     const TemporaryFolder folder;
     EXPECT_FALSE(read_reference(folder.path()));
-    const Reference written = reference();
+    Reference written = reference();
+    written.events.separation = Event{.time = 0.65, .load = 3};
     write_reference(folder.path(), written);
     const std::optional<Reference> read = read_reference(folder.path());
     ASSERT_TRUE(read);
@@ -39,7 +46,9 @@ TEST(Reference, IsReadAsItWasWritten) {
     EXPECT_EQ(read->breaks, written.breaks);
     EXPECT_EQ(read->frames[1].moment, "end");
     EXPECT_EQ(read->frames[1].displacement, 0.125);
-    EXPECT_FALSE(read->events.separation);
+    ASSERT_TRUE(read->events.separation);
+    EXPECT_EQ(read->events.separation->time, 0.65);
+    EXPECT_EQ(read->events.separation->load, 3);
     EXPECT_EQ(physics_change(written, *read, {.position = 0, .break_steps = 0, .load = 0}), "");
 
     std::string text = read_file(folder.path() / "references.json");
@@ -78,6 +87,45 @@ TEST(Reference, SaysWhatChangedFirst) {
     changed.end_time += 0.01;
     EXPECT_NE(physics_change(reference(), changed, {}).find("it ends at 710.0 ms, not at 700.0 ms"),
               std::string::npos);
+    changed = reference();
+    changed.bonds = 7;
+    EXPECT_EQ(physics_change(reference(), changed, {}), "another body: 4 particles and 7 bonds, not 4 and 6");
+    changed = reference();
+    changed.broken = 3;  // one that the list of the first does not name
+    EXPECT_EQ(physics_change(reference(), changed, {}),
+              "physics changed first at t = 700.0 ms: 3 broken bonds, not 2");
+}
+
+TEST(Reference, OfSeveralBreaksTheEarliestIsNamed) {
+    Reference a = reference(), b = a;
+    a.breaks = {{1, 2, 500}, {0, 1, 600}};
+    b.breaks = {{1, 2, 510}, {0, 1, 610}};
+    EXPECT_EQ(physics_change(a, b, {}),
+              "physics changed first at t = 500.0 ms: bond 1-2 broke 10 steps later");
+}
+
+TEST(Reference, LoadsCountByThemselvesWhateverTheirSign) {
+    Reference pushed = reference();
+    pushed.events.first_break->load *= -1;
+    pushed.events.peak_load->load *= -1;
+    Reference changed = pushed;
+    changed.events.first_break->load *= 1.01;
+    EXPECT_EQ(physics_change(pushed, changed, {}), "physics changed: load at first break +1.0 %");
+    EXPECT_EQ(physics_change(pushed, changed, {.load = 0.006}), "");  // of the peak, twice as large
+    changed = pushed;
+    changed.events.peak_load->load *= 0.99;
+    EXPECT_EQ(physics_change(pushed, changed, {}), "physics changed: peak load -1.0 %");
+    changed.events.peak_load = {};
+    EXPECT_EQ(physics_change(pushed, changed, {}), "physics changed: peak load none, expected one");
+}
+
+// Where another step was recorded last, the particles have moved on, which is no change.
+TEST(Reference, DisplacementsAreComparedAtTheSameStep) {
+    Reference changed = reference();
+    for (ReferenceFrame& frame : changed.frames) frame.step = 501, frame.displacement = 0.2;
+    EXPECT_EQ(physics_change(reference(), changed, {}), "");
+    for (ReferenceFrame& frame : changed.frames) frame.step = 500;
+    EXPECT_NE(physics_change(reference(), changed, {}), "");
 }
 
 // Of more breaks than are kept, those beyond the end of either list say nothing.
@@ -114,8 +162,44 @@ TEST(Reference, MomentsAtOneTimeShareAPictureAndWhatDidNotHappenIsLeftOut) {
     EXPECT_EQ(image.width, 128);
     EXPECT_EQ(image.height, 96);
     EXPECT_EQ(test.reference.frames[1].sha256, pixel_hash(image));
+    // The numbers are those of the last state by then, one every 0.05 s.
+    const RunReader run(folder.path());
+    for (const ReferenceFrame& frame : test.reference.frames) {
+        const auto state = std::ranges::find(run.states(), frame.step, &StateInfo::step);
+        ASSERT_NE(state, run.states().end());
+        EXPECT_LE(state->time, frame.time);
+        EXPECT_GT(state->time, frame.time - 0.06) << frame.moment;
+        double squares = 0;
+        const std::vector<Vec3> moved = run.read(static_cast<int>(state - run.states().begin())).displacement;
+        for (const Vec3& u : moved) squares += u.squaredNorm();
+        EXPECT_NEAR(frame.displacement, std::sqrt(squares / static_cast<double>(moved.size())), 1e-12);
+    }
     EXPECT_EQ(test.reference.key.renderer.find("OSMesa"), std::string::npos);
     EXPECT_NE(test.reference.key.renderer.find("Mesa "), std::string::npos);
+}
+
+// The table of keys and the structs both name the defaults.
+TEST(Limits, OfAnEmptyTableAreTheUsualOnesAndEachCanBeSet) {
+    const KeyBlock& keys = scene_block("tolerance");
+    TestLimits usual, other;
+    TestLimits::each(usual, [&]<class T>(const char* key, std::optional<T>& limit) {
+        ASSERT_TRUE(keys.find(key)) << key;
+        limit = static_cast<T>(std::stod(keys.find(key)->standard));
+    });
+    EXPECT_EQ(keys.keys.size(), 7u);
+    Tolerance pixels{.tile = -1, .pixels = -1, .mean = -1, .rmse = -1};
+    RunTolerance run{.position = -1, .break_steps = -1, .load = -1};
+    set_limits(usual, pixels, run);
+    const Tolerance standard;
+    const RunTolerance standard_run;
+    EXPECT_EQ(std::tuple(pixels.tile, pixels.pixels, pixels.mean, pixels.rmse),
+              std::tuple(standard.tile, standard.pixels, standard.mean, standard.rmse));
+    EXPECT_EQ(std::tuple(run.position, run.break_steps, run.load),
+              std::tuple(standard_run.position, standard_run.break_steps, standard_run.load));
+    other.mean = 5;
+    set_limits(other, pixels, run);
+    EXPECT_EQ(pixels.mean, 5);
+    EXPECT_EQ(pixels.tile, standard.tile);
 }
 
 TEST(Junit, CountsAndEscapes) {

@@ -223,6 +223,25 @@ TEST_F(ImageTest, IsExactOnTheRendererOfTheReferencesAndTolerantElsewhere) {
     EXPECT_EQ(Json::parse(answer.out)[0]["frames"][1]["sameness"], "within tolerance");
 }
 
+TEST_F(ImageTest, ASceneHasLimitsOfItsOwnAndTheCommandGoesBeforeThem) {
+    ASSERT_EQ(test("--update all").status, 0);
+    edit("\"small\"", "\"smell\"");
+    write(text_ + "tolerance = { tile = 99, pixels = 1e6, mean = 99, rmse = 99 }\n");
+    const std::string elsewhere = "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1";
+    Answer answer = test("", elsewhere);
+    EXPECT_EQ(answer.status, 0) << answer.out;
+    answer = test("--tile 0.5", elsewhere);
+    EXPECT_EQ(answer.status, 3) << answer.out;
+    EXPECT_TRUE(has(answer, ", limit 0.5, at (")) << answer.out;
+    EXPECT_FALSE(has(answer, "pixels far off")) << answer.out;
+    EXPECT_EQ(test("").status, 3);  // where the references are from, they are exact
+
+    edit("break_strain = 0.1", "break_strain = 0.0999");
+    EXPECT_TRUE(has(test("", elsewhere), "physics changed")) << answer.out;
+    edit("tolerance = { ", "tolerance = { break_steps = 1000, position = 9, load = 0.1, ");
+    EXPECT_FALSE(has(test("", elsewhere), "earlier")) << answer.out;
+}
+
 TEST_F(ImageTest, ScenesOfOneNameInSeveralFoldersAreAllTested) {
     fs::create_directories(at("others"));
     std::string short_run = text_;

@@ -152,6 +152,7 @@ at = ["first_break", "separation + 0.2 s", "3 s"]
 size = [480, 270]
 frames = ["first_break", "peak_load - 1 ms", 2]
 params = ["spacing=1 m", "count=2"]
+tolerance = { tile = 4, pixels = 20, mean = 1, rmse = 2, position = 0.1, break_steps = 2, load = 0.01 }
 )scene";
 
 /// The least that runs: 40 m x 20 m plate of 4 m particles, clamped on the left, pulled down at the right.

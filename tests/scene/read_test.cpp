@@ -146,6 +146,22 @@ TEST(ReadScene, EveryRuleOfALoadIsChecked) {
               "(2 m, 2 m)");
 }
 
+TEST(ReadScene, LimitsOfATestAreThoseGivenAndNoneIsNegative) {
+    const std::string scene = std::string(small_scene) + "[test]\n";
+    const TestLimits limits =
+        parse_scene(scene + "tolerance = { break_steps = 2, load = 0.01 }\n", "s.toml").test.tolerance;
+    EXPECT_EQ(limits.break_steps, 2);
+    EXPECT_EQ(limits.load, 0.01);
+    EXPECT_FALSE(limits.tile);
+    EXPECT_EQ(answer(scene + "tolerance = { tile = -1 }\n"),
+              "s.toml:28:22: error: [test] tolerance tile needs to be from 0 to 1e9; found -1");
+    EXPECT_EQ(
+        answer(scene + "tolerance = { break_steps = 9999999999 }\n").find("s.toml:28:29: error: [test] "),
+        0u);
+    EXPECT_EQ(answer(scene + "tolerance = { tiel = 1 }\n").find("s.toml:28:15: error: unknown key \"tiel\""),
+              0u);
+}
+
 TEST(Suggestions, FindTheNearestNameAndNoFarOne) {
     const std::vector<std::string> known{"friction", "ramp", "until"};
     EXPECT_EQ(nearest("frction", known), "friction");
