@@ -122,8 +122,9 @@ std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, con
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
         if (std::abs(built.lattice_area_error[b]) > 0.05)
             notes.push_back(fmt::format(
-                "body \"{}\": its particles cover {:+.1f} % of its area too much; a smaller spacing helps",
-                scene.bodies[b].name, 100 * built.lattice_area_error[b]));
+                "body \"{}\": its particles cover {:.1f} % {} than its shape; a smaller spacing helps",
+                scene.bodies[b].name, 100 * std::abs(built.lattice_area_error[b]),
+                built.lattice_area_error[b] > 0 ? "more" : "less"));
     const bool breaks = std::any_of(built.model.materials.begin(), built.model.materials.end(),
                                     [](const Material& m) { return m.can_break(); });
     for (const Material& m : scene.materials)

@@ -107,7 +107,7 @@ void add_movie(Command& command, DrawOptions& draw) {
     add_formats(command, draw.formats);
     command.add_flag_callback(
         "--no-movie", [&draw] { draw.movie = draw.frames = false; },
-        "neither frames nor film: poster, figures and report only");
+        "neither frames nor film, and none stays from before: poster, figures and report only");
     command.add_flag_callback(
         "--no-report", [&draw] { draw.report = false; }, "neither figures nor report");
 }

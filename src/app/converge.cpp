@@ -118,7 +118,7 @@ int converge_command(ConvergeOptions options) {
     const std::vector<Chart> charts = convergence_charts(runs);
     write_png(study.folder / "plot.png", chart_image(charts, style),
               {.text = to_texts(provenance), .small = true, .dpi = style.dpi});
-    write_file(study.folder / "plot.svg", chart_svg(charts, style));
+    write_file(study.folder / "plot.svg", chart_svg(charts, style, nullptr, to_comment(provenance)));
 
     CompareOptions film{
         .folders = {}, .output = study.folder / "film", .title = coarsest.title + (both ? ", " + given : "")};

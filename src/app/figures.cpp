@@ -61,7 +61,7 @@ std::vector<fs::path> write_figures(const Scene& scene, const RunReader& run, co
     if (charts.empty()) return files;
     write("curve", chart_image(charts, style));
     files.push_back(folder / ("curve" + suffix + ".svg"));
-    write_file(files.back(), chart_svg(charts, style));
+    write_file(files.back(), chart_svg(charts, style, nullptr, to_comment(provenance)));
     return files;
 }
 

@@ -31,6 +31,7 @@ density        = "2300 kg/m^3"
 youngs_modulus = "30 GPa"
 poissons_ratio = 0.2
 break_strain   = 0.0005            # a bond breaks when it is stretched or shortened by more: strength / E
+# tension_only = true              # shortened bonds never break: for what is far stronger in compression
 
 [[body]]
 name     = "beam"

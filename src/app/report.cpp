@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "image/png.hpp"
 #include "record/files.hpp"
+#include "record/provenance.hpp"
 #include "report/caption.hpp"
 #include "report/page.hpp"
 #include "scene/read.hpp"
@@ -86,7 +87,7 @@ void write_report(const Scene& scene, const fs::path& folder, const RendererOpti
     write_file(folder / "report.html", report_page(page));
 
     const std::string label = fs::absolute(folder).lexically_normal().filename().string();
-    write_file(folder / "caption.md", caption_markdown(caption, scene.title));
+    write_file(folder / "caption.md", caption_markdown(caption, scene.title) + "\n" + to_html_comment(provenance_of(run.summary())));
     fs::create_directories(folder / "snippets");
     write_file(folder / "snippets/figure.tex", latex_snippet(caption, label, film_in(folder)));
     write_file(folder / "snippets/figure.qmd", quarto_snippet(caption, label, film_in(folder)));

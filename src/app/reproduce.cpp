@@ -31,7 +31,7 @@ std::string beginning_of(const fs::path& file) {
     return text;
 }
 
-/// Animated WebP ends with an XMP packet.
+/// Animated WebP ends with an XMP packet; < and & are escaped in it, as in the metadata of an SVG.
 std::string end_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     in.seekg(-std::min<std::streamoff>(65536, static_cast<std::streamoff>(fs::file_size(file))),
@@ -39,7 +39,7 @@ std::string end_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::optional<Provenance> from_xmp(std::string text) {
+std::optional<Provenance> from_xml(std::string text) {
     for (const auto& [code, character] : {std::pair("&lt;", "<"), std::pair("&amp;", "&")})
         for (std::size_t at = 0; (at = text.find(code, at)) != std::string::npos; ++at)
             text.replace(at, std::strlen(code), character);
@@ -60,9 +60,10 @@ std::optional<Provenance> read_provenance(const fs::path& file) {
         read_png(file, &text);
         return from_texts(text);
     }
+    if (type == ".svg") return from_xml(beginning_of(file));
     if (const auto found = from_comment(beginning_of(file))) return found;
     if (type == ".webp")
-        if (const auto found = from_xmp(end_of(file))) return found;
+        if (const auto found = from_xml(end_of(file))) return found;
     for (const auto& [key, text] : film_metadata(file))
         if (const auto found = from_comment(text)) return found;
     return {};

@@ -20,6 +20,7 @@
 #include "record/leftovers.hpp"
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
+#include "report/place.hpp"
 
 namespace hibi {
 
@@ -172,9 +173,18 @@ std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simul
         const bool seen = (event == EventName::first_break && events.first_break) ||
                           (event == EventName::peak_load && summary.end_time < scene.run.max_time) ||
                           (event == EventName::separation && events.separation);
-        if (!seen)
+        if (!seen) {
             list.push_back(fmt::format("{} was not reached before max_time = {}", to_string(event),
                                        format_si(scene.run.max_time, "s")));
+            if (event == EventName::separation && events.first_break)
+                list.back() +=
+                    ": what is loaded still hangs together with what is held, by one bond at least; raise the "
+                    "load or max_time, or let [run] until be another moment";
+            const bool damped_on = scene.damping && (!scene.damping->until || !scene.damping->until->event ||
+                                                     scene.damping->until->event == EventName::separation);
+            if (event == EventName::separation && events.first_break && damped_on)
+                list.back() += "; damping holds back what falls: [damping] until = \"first_break\"";
+        }
     }
     if (!summary.trusted)
         list.push_back(
@@ -211,7 +221,7 @@ std::string event_line(const char* name, const std::optional<Event>& event, bool
     if (loaded)
         line += fmt::format(" load {:<10} displacement {}", format_si(event->load, "N", 4),
                             format_si(event->displacement, "m"));
-    if (with_place) line += fmt::format("  at ({:.4g}, {:.4g}) m", event->position.x(), event->position.y());
+    if (with_place) line += fmt::format("  at {}", place_text(event->position));
     return line + "\n";
 }
 

@@ -314,7 +314,7 @@ int sweep_command(SweepOptions options) {
         const FigureStyle style{.theme = "light"};
         write_png(folder / "plot.png", chart_image({*chart}, style),
                   {.text = to_texts(provenance), .small = true, .dpi = style.dpi});
-        write_file(folder / "plot.svg", chart_svg({*chart}, style));
+        write_file(folder / "plot.svg", chart_svg({*chart}, style, nullptr, to_comment(provenance)));
     } else if (!options.study.quiet) {
         fmt::print(stderr, "no plot: it needs one or two parameters that vary, and two runs that succeed\n");
     }

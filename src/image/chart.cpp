@@ -83,7 +83,7 @@ Image chart_image(const std::vector<Chart>& charts, const FigureStyle& style) {
 }
 
 std::string chart_svg(const std::vector<Chart>& charts, const FigureStyle& style,
-                      std::vector<ChartPlace>* places) {
+                      std::vector<ChartPlace>* places, std::string metadata) {
     const Figure figure(charts, style);
     std::string title;
     for (const Chart& chart : charts) {
@@ -95,6 +95,13 @@ std::string chart_svg(const std::vector<Chart>& charts, const FigureStyle& style
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" "
         "width=\"{:.2f}mm\" height=\"{:.2f}mm\" viewBox=\"0 0 {:.2f} {:.2f}\">\n<title>{}</title>\n",
         figure.width() / mm, figure.height() / mm, figure.width(), figure.height(), xml_escaped(title));
+    if (!metadata.empty()) {
+        // Quotation marks stay, so that what is JSON stays readable.
+        for (const auto& [character, code] : {std::pair('&', "&amp;"), std::pair('<', "&lt;")})
+            for (std::size_t at = 0; (at = metadata.find(character, at)) != std::string::npos; ++at)
+                metadata.replace(at, 1, code);
+        svg += "<metadata>" + metadata + "</metadata>\n";
+    }
     Ink ink(svg, figure.type());
     figure.draw(ink, theme(style.theme).background);
     if (places)

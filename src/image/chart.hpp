@@ -56,8 +56,9 @@ struct ChartPlace {
 /// they hide no data, as near as that allows. Throws std::runtime_error as Typesetter does.
 Image chart_image(const std::vector<Chart>& charts, const FigureStyle& style);
 /// The same as SVG: as wide in millimetres, its own lengths in points, text as outlines, so that it needs no
-/// font, and no names (id), so that several fit into one page; the same bytes for the same charts.
+/// font, and no names (id), so that several fit into one page; the same bytes for the same charts. `metadata`
+/// is kept in an element of that name.
 std::string chart_svg(const std::vector<Chart>& charts, const FigureStyle& style,
-                      std::vector<ChartPlace>* places = nullptr);
+                      std::vector<ChartPlace>* places = nullptr, std::string metadata = {});
 
 }  // namespace hibi

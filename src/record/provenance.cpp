@@ -55,6 +55,15 @@ std::string to_comment(const Provenance& provenance) {
     return std::string(comment_mark, 6) + json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string to_html_comment(const Provenance& provenance) {
+    if (provenance.command.empty()) return {};
+    std::string text = to_comment(provenance);
+    // No "-->" may occur in it.
+    for (std::size_t at = 0; (at = text.find('>', at)) != std::string::npos;)
+        text.replace(at, 1, "\\u003e");
+    return "<!-- " + text + " -->\n";
+}
+
 std::optional<Provenance> from_comment(const std::string& text) {
     const std::size_t begin = text.find(comment_mark);
     if (begin == std::string::npos) return {};

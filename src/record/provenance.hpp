@@ -31,6 +31,8 @@ std::optional<Provenance> from_texts(const Texts& texts);
 /// it.
 std::string to_comment(const Provenance& provenance);
 std::optional<Provenance> from_comment(const std::string& text);
+/// The line as a comment of HTML or Markdown; empty where there is no command.
+std::string to_html_comment(const Provenance& provenance);
 
 /// The same as a JSON object in a file of its own.
 void write_texts(const std::filesystem::path& file, const Texts& texts);

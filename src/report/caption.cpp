@@ -96,8 +96,9 @@ Caption caption_of(const RunSummary& s, const Topology& topology, const std::str
                              place_in(body, (topology.notches[0][0] + topology.notches[0][1]) / 2)));
     if (e.first_break)
         sentence(c.alternative,
-                 fmt::format("The first bond breaks {}; {} of {} bonds are broken in the end{}",
-                             place_in(body, e.first_break->position), s.broken, s.bonds,
+                 fmt::format("The first bond breaks {}, at {}; {} of {} bonds are broken in the end{}",
+                             part_of(body, e.first_break->position), place_text(e.first_break->position),
+                             s.broken, s.bonds,
                              e.separation ? ", and the body is in pieces" : ""));
     return c;
 }

@@ -36,14 +36,7 @@ std::string page_head(const std::string& title, const Provenance& provenance,
                       const std::string& extra_style) {
     std::string page = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
     page += fmt::format("<title>{}</title>\n", escaped(title));
-    // `hibi reproduce` looks for it at the beginning of the file. No "-->" can occur in it: < and > are
-    // escaped.
-    if (!provenance.command.empty()) {
-        std::string origin = to_comment(provenance);
-        for (std::size_t at = 0; (at = origin.find('>', at)) != std::string::npos;)
-            origin.replace(at, 1, "\\u003e");
-        page += "<!-- " + origin + " -->\n";
-    }
+    page += to_html_comment(provenance);  // `hibi reproduce` looks for it at the beginning of the file
     page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
     page += fmt::format("<meta name=\"generator\" content=\"hibi {}\">\n", escaped(provenance.version));
     page += "<link rel=\"icon\" href=\"data:,\">\n";  // or a browser asks for one

@@ -324,7 +324,7 @@ std::string failure_mode(const RunSummary& summary, const Topology& topology,
     const char* how = share > 2.0 / 3   ? "in tension"
                       : share < 1.0 / 3 ? "in compression"
                                         : "in tension and compression";
-    return fmt::format("{} {}", place_in(extent_of(topology), summary.events.first_break->position), how);
+    return fmt::format("{} {}", part_of(extent_of(topology), summary.events.first_break->position), how);
 }
 
 }  // namespace hibi

@@ -80,6 +80,7 @@ class Parser {
         const std::string found = text_.substr(at_, bytes);
         std::string hint;
         if (found == ",") hint = "the decimal sign is a point";
+        if (found == "%") hint = "write a plain number: 5 % is 0.05";
         if (found == "=") hint = "compare with < <= > >=; positions are never exactly equal";
         if (found == "&" || found == "|" || found == "!") hint = "write and, or, not";
         if (starts_name(found[0])) hint = "put an operator such as * before it";

@@ -254,7 +254,7 @@ TEST_F(Film, EveryFileSaysWhichCommandMadeIt) {
     const std::string command = "hibi run " + scene_.string() + " -o " + run_.string() + "\n";
     for (const char* name :
          {"movie.mp4", "frames/000007.png", "poster.png", "strip.png", "cracks.png", "curve.png",
-          "figures/strip_print_85mm.png", "history.csv", "breaks.csv", "report.html", "run.json", "."}) {
+          "curve.svg", "figures/strip_print_85mm.png", "history.csv", "caption.md", "breaks.csv", "report.html", "run.json", "."}) {
         const Answer answer = hibi("reproduce " + (run_ / name).string());
         EXPECT_EQ(answer.status, 0) << name;
         EXPECT_EQ(answer.out, command) << name;

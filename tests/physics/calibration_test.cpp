@@ -127,5 +127,44 @@ TEST(SlowStrip, ACentreCrackFailsAtTheSameIntensity) {
     }
 }
 
+/// Angle to its notch of a crack that has run on by nine spacings (degrees): the line that fits the broken bonds
+/// best.
+double path_angle(const StripCase& c) {
+    const Material m{.name = "unit", .youngs_modulus = 1, .poissons_ratio = c.nu, .fracture_energy = 1};
+    CrackGrowth growth(c, 9.6 + 2 * c.influence, 1.6 + 2 * c.influence, 6 + 2 * c.influence);
+    const auto limit = [&](double length) {
+        return fracture_strain(m, c.assumption, c.influence, c.spacing(), length);
+    };
+    const std::vector<CrackGrowth::Break> breaks = growth.grow(limit, 9);
+    Vec<2> mean = Vec<2>::Zero();
+    for (const CrackGrowth::Break& b : breaks) mean += b.middle / static_cast<double>(breaks.size());
+    double xx = 0, xy = 0;
+    for (const CrackGrowth::Break& b : breaks) {
+        const Vec<2> d = b.middle - mean;
+        xx += d.x() * d.x();
+        xy += d.x() * d.y();
+    }
+    return std::atan2(xy, xx) * 180 / std::numbers::pi;
+}
+
+TEST(SlowStrip, RowsLeadCracksAstrayAndJitterSetsThemFree) {
+    for (const double angle : {0.0, 15.0, 30.0, 45.0}) {
+        fmt::print("{:2} degrees:", angle);
+        for (const double jitter : {0.0, 0.1, 0.2, 0.3}) {
+            double sum = 0;
+            for (const std::uint64_t seed : {1, 2, 3})
+                sum += std::pow(
+                    path_angle({.across = 36, .angle = angle, .jitter = jitter, .seed = seed}), 2);
+            const double deviation = std::sqrt(sum / 3);
+            fmt::print("  jitter {} {:.1f}", jitter, deviation);
+            if (jitter == 0) {
+                EXPECT_NEAR(deviation, angle == 45 ? 0 : angle, 3);
+            }
+            EXPECT_LT(deviation, 40);
+        }
+        fmt::print("\n");
+    }
+}
+
 }  // namespace
 }  // namespace hibi

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "report/place.hpp"
+
 namespace hibi {
 namespace {
 
@@ -57,11 +59,16 @@ TEST(Caption, SaysThatNothingBrokeOrThatTheRunStoppedEarly) {
               std::string::npos);
 }
 
+TEST(Place, RoundingIsNoCoordinate) {
+    EXPECT_EQ(place_text(Vec3(4.441e-16, 4.25, 0)), "(0, 4.25) m");
+    EXPECT_EQ(place_text(Vec3(-1e-15, -3e-6, 0)), "(0, -3e-06) m");
+}
+
 TEST(Caption, DescribesThePictureForThoseWhoCannotSeeIt) {
     EXPECT_EQ(caption_of(broken(), plate(), "", "").alternative,
               "A body 6 m wide and 3 m high, drawn as 18 discs. It is clamped at the left. It is loaded "
               "downwards at "
-              "the right. The first bond breaks at the upper left; 7 of 50 bonds are broken in the end, and "
+              "the right. The first bond breaks on the upper left, at (1, 2.5) m; 7 of 50 bonds are broken in the end, and "
               "the body is "
               "in pieces.");
 }

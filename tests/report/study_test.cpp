@@ -142,9 +142,12 @@ TEST(Study, TheFailureModeIsThatOfTheFirstBreaks) {
     s.events.first_break = Event{.time = 1, .position = Vec3(1, 8, 0)};
     std::vector<Break> breaks(100);
     for (int k = 0; k < 100; ++k) breaks[k].strain = k < 20 ? 0.1 : -0.1;
-    EXPECT_EQ(failure_mode(s, topology, breaks), "at the upper left in tension");
+    EXPECT_EQ(failure_mode(s, topology, breaks), "on the upper left in tension");
+    s.events.first_break->position = Vec3(4.5, 8, 0);
+    EXPECT_EQ(failure_mode(s, topology, breaks), "in the upper middle in tension") << "not the top fibre";
+    s.events.first_break->position = Vec3(1, 8, 0);
     for (Break& b : breaks) b.strain = -0.1;
-    EXPECT_EQ(failure_mode(s, topology, breaks), "at the upper left in compression");
+    EXPECT_EQ(failure_mode(s, topology, breaks), "on the upper left in compression");
 }
 
 }  // namespace
