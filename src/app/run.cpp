@@ -237,6 +237,9 @@ void print_results(const RunSummary& s, const fs::path& folder, const RunOptions
     std::string text;
     text += event_line("first break", s.events.first_break, s.events.peak_load.has_value(), true);
     text += event_line("peak load", s.events.peak_load, true, false);
+    // As large as the scene made it, then; no strength of the body.
+    if (s.events.peak_load && !s.events.separation && s.events.peak_load->time > s.end_time - 2 * s.time_step)
+        text.insert(text.size() - 1, "  still rising at the end");
     text += event_line("separation", s.events.separation, true, false);
     text += fmt::format("{:<16} {} of {}, in {} steps of {}\n", "broken bonds", s.broken, s.bonds, s.steps,
                         format_si(s.time_step, "s"));

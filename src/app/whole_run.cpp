@@ -85,6 +85,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
     std::array<double, 4> box{far, far, -far, -far};
     const Topology& topology = run.topology();
     for (const Vec3& X : topology.reference_position) include(box, X.x(), X.y());
+    const std::array<double, 4> at_rest = box;
     // Reading every state takes longer than drawing it: where their extents are no help, some are enough.
     constexpr int most_read = 48;
     const int last = last_counting_state(run);
@@ -106,6 +107,12 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
             const Vec3 p = topology.reference_position[i] + view.magnify * snapshot.displacement[i];
             include(box, p.x(), p.y());
         }
+    }
+    if (view.magnify > 1) {
+        // What moves far, drawn many times as far, would leave the rest a speck.
+        const double reach = std::max(at_rest[2] - at_rest[0], at_rest[3] - at_rest[1]);
+        for (int side = 0; side < 4; ++side)
+            box[side] = std::clamp(box[side], at_rest[side] - reach, at_rest[side] + reach);
     }
     const double radius = largest_spacing(topology) / 2;
     return {box[0] - radius, box[1] - radius, box[2] + radius, box[3] + radius};

@@ -47,10 +47,16 @@ std::vector<ChartMark> marks_of(const Events& events, Place&& place) {
 
 Chart load_chart(const History& history, const Events& events) {
     Chart chart{.title = {}, .x = {"Displacement", "m"}, .y = {"Load", "N"}, .lines = {{.label = "Load"}}};
+    const auto add = [&chart](double displacement, double load) {
+        chart.lines[0].x.push_back(displacement);
+        chart.lines[0].y.push_back(load);
+    };
     for (const HistoryRow& row : history.rows) {
         if (!counts(row, events)) break;
-        chart.lines[0].x.push_back(row.displacement);
-        chart.lines[0].y.push_back(row.load);
+        // A load that ends with the separation is gone in the row of that time: it falls there, not on the way.
+        if (const auto& last = events.separation; last && last->time == row.time && last->load != row.load)
+            add(last->displacement, last->load);
+        add(row.displacement, row.load);
     }
     chart.marks = marks_of(events, [](const Event& e) { return ChartMark{e.displacement, e.load, {}}; });
     return chart;

@@ -40,6 +40,17 @@ TEST(RunCharts, EndWithTheSeparationAndMarkTheEvents) {
     EXPECT_FALSE(charts[1].marks[0].y);
 }
 
+TEST(RunCharts, ALoadThatEndsWithTheSeparationFallsThere) {
+    History released = history();
+    for (HistoryRow& row : released.rows)
+        if (row.time >= 8) row.load = 0;
+    const ChartLine load = run_charts(released, events())[0].lines[0];
+    const std::size_t n = load.x.size();
+    EXPECT_EQ(load.x[n - 2], load.x[n - 1]);
+    EXPECT_EQ(load.y[n - 2], 80);
+    EXPECT_EQ(load.y[n - 1], 0);
+}
+
 TEST(RunCharts, EnergiesThatNobodyWouldSeeAreLeftOut) {
     const Chart energies = run_charts(history(), events())[1];
     ASSERT_EQ(energies.lines.size(), 2u);  // the kinetic energy becomes large only in flight
