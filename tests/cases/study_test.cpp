@@ -104,7 +104,7 @@ TEST(Converge, ShowsBothCriteriaFromCoarseToFineAndWarns) {
     EXPECT_NEAR(rows[0]["first_break_load"].get<double>() / 5.80e7, 1, 0.02);
     EXPECT_NEAR(rows[1]["first_break_load"].get<double>() / 4.25e7, 1, 0.02);
     EXPECT_EQ(rows[2]["first_break_load"], rows[0]["first_break_load"]) << "the same limit at the coarsest";
-    EXPECT_EQ(rows[0]["mode"], "at the upper left in tension");
+    EXPECT_EQ(rows[0]["mode"], "on the upper left in tension");
     for (const char* name : {"converge.csv", "plot.png", "plot.svg", "sheet.png", "caption.md"})
         EXPECT_TRUE(fs::exists(study / name)) << name;
 }
