@@ -82,6 +82,22 @@ void add_ramp_notes(const Built<2>& built, double period, double ratio, std::vec
                            load.name, format_si(slow_ramp_periods * period, "s", 2));
         if (!note.empty()) notes.push_back(note);
     }
+    if (built.physics.gravity)
+        notes.push_back(
+            "gravity acts from the start: the body swings to as much as twice what its weight strains it at rest; "
+            "loads of the same moment meet it swinging");
+}
+
+/// Strains below this are those of brittle materials, which are crushed at far more than they are torn at.
+constexpr double brittle_strain = 0.01;
+
+void add_compression_notes(const Scene& scene, std::vector<std::string>& notes) {
+    for (const Material& m : scene.materials)
+        if (m.break_strain && *m.break_strain < brittle_strain && !m.tension_only)
+            notes.push_back(fmt::format(
+                "[material.{}] break_strain: bonds that are shortened by {:.2g} % break too; for concrete, stone or "
+                "glass, which bear far more in compression: tension_only = true",
+                m.name, 100 * *m.break_strain));
 }
 
 /// Corners between what is held and what is free, and tips of notches, where strain grows without end as the
@@ -111,6 +127,7 @@ std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, con
             "larger spacing has nearly the same period",
             built.model.particles.count()));
     add_spacing_note(scene, built, notes);
+    add_compression_notes(scene, notes);
     const auto primary =
         std::find_if(scene.loads.begin(), scene.loads.end(), [](const LoadSpec& l) { return l.primary; });
     const bool forced = primary != scene.loads.end() &&

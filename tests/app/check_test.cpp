@@ -63,6 +63,21 @@ class CheckOf : public testing::Test {
     const TemporaryFolder folder_;
 };
 
+bool has_note(const nlohmann::json& json, const std::string& words);
+
+TEST_F(CheckOf, RemarksThatABrittleMaterialIsCrushedAsSoonAsItIsTorn) {
+    const std::string words = "bonds that are shortened by 0.01 % break too";
+    EXPECT_TRUE(has_note(of(with("break_strain = 0.1", "break_strain = 0.0001")), words));
+    EXPECT_FALSE(
+        has_note(of(with("break_strain = 0.1", "break_strain = 0.0001\ntension_only = true")), "shortened"));
+    EXPECT_FALSE(has_note(of(small_scene), "shortened"));
+}
+
+TEST_F(CheckOf, RemarksThatGravityActsFromTheStart) {
+    EXPECT_TRUE(has_note(of(with("[run]", "[gravity]\n[run]")), "gravity acts from the start"));
+    EXPECT_FALSE(has_note(of(small_scene), "gravity"));
+}
+
 bool has_note(const nlohmann::json& json, const std::string& words) {
     return std::ranges::any_of(json["notes"], [&](const auto& note) {
         return note.template get<std::string>().find(words) != std::string::npos;
