@@ -110,7 +110,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
     }
     if (view.magnify > 1) {
         // What moves far, drawn many times as far, would leave the rest a speck.
-        const double reach = 2 * std::max(at_rest[2] - at_rest[0], at_rest[3] - at_rest[1]);
+        const double reach = 3 * std::max(at_rest[2] - at_rest[0], at_rest[3] - at_rest[1]);
         for (int side = 0; side < 4; ++side)
             box[side] = std::clamp(box[side], at_rest[side] - reach, at_rest[side] + reach);
     }
