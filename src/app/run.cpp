@@ -176,14 +176,14 @@ std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simul
         if (!seen) {
             list.push_back(fmt::format("{} was not reached before max_time = {}", to_string(event),
                                        format_si(scene.run.max_time, "s")));
-            if (event == EventName::separation && events.first_break)
+            if (event == EventName::separation && events.first_break) {
                 list.back() +=
                     ": what is loaded still hangs together with what is held, by one bond at least; raise the "
                     "load or max_time, or let [run] until be another moment";
-            const bool damped_on = scene.damping && (!scene.damping->until || !scene.damping->until->event ||
-                                                     scene.damping->until->event == EventName::separation);
-            if (event == EventName::separation && events.first_break && damped_on)
-                list.back() += "; damping holds back what falls: [damping] until = \"first_break\"";
+                if (scene.damping && (!scene.damping->until || !scene.damping->until->event ||
+                                      scene.damping->until->event == EventName::separation))
+                    list.back() += "; damping holds back what falls: [damping] until = \"first_break\"";
+            }
         }
     }
     if (!summary.trusted)
