@@ -111,8 +111,7 @@ void add_spacing_note(const Scene& scene, const Built<2>& built, std::vector<std
     if (built.model.bonds_cut == 0 && clamp == holds.end()) return;
     notes.push_back(fmt::format(
         "break_strain: the strain at {} grows as the particles get smaller, so the load at first break "
-        "depends "
-        "on the spacing; hibi converge shows how much",
+        "depends on the spacing; hibi converge shows how much",
         built.model.bonds_cut > 0 ? "the tip of a notch" : fmt::format("the support \"{}\"", clamp->name)));
 }
 

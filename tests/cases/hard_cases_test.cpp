@@ -13,6 +13,7 @@
 #include "record/run_folder.hpp"
 #include "record/tables.hpp"
 #include "support/call.hpp"
+#include "support/films.hpp"
 #include "support/plates.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -21,14 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-const std::string small_film = R"(
-[view]
-size = [160, 120]
-[movie]
-duration = "0.5 s"
-fps = 10
-)";
 
 /// 210 MPa, 2300 kg/m^3: waves run at 302 m/s.
 std::string concrete(const std::string& more = {}, const std::string& nu = "0.3",
@@ -60,7 +53,7 @@ struct Outcome {
 Outcome run(const TemporaryFolder& folder, const std::string& name, const std::string& scene,
             const std::string& options = "--no-report") {
     const fs::path file = folder.path() / (name + ".toml");
-    std::ofstream(file) << scene << small_film;
+    std::ofstream(file) << scene << test::small_film;
     const fs::path out = folder.path() / name;
     return {
         call("timeout 120 " HIBI_PROGRAM " run " + file.string() + " -q " + options + " -o " + out.string()),

@@ -11,6 +11,7 @@
 #include "record/run_folder.hpp"
 #include "record/tables.hpp"
 #include "support/call.hpp"
+#include "support/films.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace hibi {
@@ -18,14 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-const std::string small_film = R"(
-[view]
-size = [160, 120]
-[movie]
-duration = "0.5 s"
-fps = 10
-)";
 
 /// The cantilever plate of scenes/bending_coarse.toml, 40 m x 20 m; its tip is pulled down by up to 80 MN.
 std::string cantilever(const std::string& run, const std::string& spacing = "4 m",
@@ -97,7 +90,7 @@ struct Outcome {
 Outcome run(const TemporaryFolder& folder, const std::string& name, const std::string& scene,
             const std::string& options = "--no-pictures") {
     const fs::path file = folder.path() / (name + ".toml");
-    std::ofstream(file) << scene << small_film;
+    std::ofstream(file) << scene << test::small_film;
     const fs::path out = folder.path() / name;
     return {
         call("timeout 200 " HIBI_PROGRAM " run " + file.string() + " -q " + options + " -o " + out.string()),
