@@ -32,4 +32,15 @@ T parallel_sum(int n, Body&& body) {
     return sum;
 }
 
+/// The blocks, by number and rising, for which body(begin, end) is true.
+template <class Body>
+std::vector<int> blocks_where(int n, Body&& body) {
+    std::vector<char> found((n + parallel_block - 1) / parallel_block, 0);
+    parallel_for(n, [&](int begin, int end) { found[begin / parallel_block] = body(begin, end); });
+    std::vector<int> blocks;
+    for (std::size_t b = 0; b < found.size(); ++b)
+        if (found[b]) blocks.push_back(static_cast<int>(b));
+    return blocks;
+}
+
 }  // namespace hibi

@@ -2,6 +2,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/vec.hpp"
+
 namespace hibi {
 
 /// One entry per bond. A bond is stored once, so it breaks once, and can be drawn and counted.
@@ -17,6 +19,16 @@ struct Bonds {
     int count() const { return static_cast<int>(first.size()); }
     bool is_intact(int bond) const { return broken_at[bond] == intact; }
     int other(int bond, int particle) const { return first[bond] == particle ? second[bond] : first[bond]; }
+};
+
+/// r0 = X_second - X_first of all bonds. Equal bonds of a lattice, which differ only by rounding, share one
+/// entry: particles alike then have the same bits everywhere, and the fast loops one small table.
+template <int Dim>
+struct BondVectors {
+    std::vector<int> kind;        ///< per bond, its place in the table
+    std::vector<Vec<Dim>> table;  ///< r0 (m)
+
+    const Vec<Dim>& operator[](int bond) const { return table[kind[bond]]; }
 };
 
 /// Fills start and bonds_of from first and second; the bonds of a particle come in rising order of the bond.

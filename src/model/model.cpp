@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace hibi {
 
@@ -33,6 +34,46 @@ bool crosses(const Notch<2>& notch, const Vec<2>& a, const Vec<2>& b) {
         if (segments_meet(a, b, notch.points[k - 1], notch.points[k])) return true;
     return false;
 }
+
+/// Sorts bond vectors into kinds.
+class BondKinds {
+ public:
+    explicit BondKinds(BondVectors<2>& vectors) : vectors_(vectors) {}
+
+    /// The kind of a bond with this r0 in lattices of spacing l0.
+    int find(const Vec<2>& r0, double l0) {
+        const Vec<2> ratio = r0 / l0;
+        const Key key{std::llround(cells * ratio.x()), std::llround(cells * ratio.y()), l0};
+        if (key == last_) return last_kind_;
+        const auto [at, is_new] = known_.try_emplace(key, static_cast<int>(vectors_.table.size()));
+        if (is_new) {
+            // Of an unturned lattice the whole multiples are known to the last bit.
+            const Vec<2> whole = ratio.array().round();
+            add((ratio - whole).cwiseAbs().maxCoeff() < rounding ? Vec<2>(l0 * whole) : r0);
+        }
+        last_ = key;
+        return last_kind_ = at->second;
+    }
+
+    /// A kind of its own, for a bond like no other.
+    int add(const Vec<2>& r0) {
+        vectors_.table.push_back(r0);
+        return static_cast<int>(vectors_.table.size()) - 1;
+    }
+
+ private:
+    struct Key {
+        long long x = 0, y = 0;  ///< r0 / l0 in cells
+        double l0 = 0;
+        auto operator<=>(const Key&) const = default;
+    };
+    static constexpr double cells = 1 << 20, rounding = 1e-9;
+
+    BondVectors<2>& vectors_;
+    std::map<Key, int> known_;
+    Key last_;
+    int last_kind_ = -1;
+};
 
 }  // namespace
 
@@ -115,10 +156,16 @@ std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notch
 
     Bonds& bonds = model.bonds;
     bonds = {};
+    model.bond_vectors = {};
+    BondKinds kinds(model.bond_vectors);
     for (const auto& [i, j] : pairs) {
         bonds.first.push_back(i);
         bonds.second.push_back(j);
-        bonds.rest_length.push_back((X[j] - X[i]).norm());
+        const bool irregular = model.bodies[particles.body[i]].lattice.jitter > 0 ||
+                               model.bodies[particles.body[j]].lattice.jitter > 0;
+        model.bond_vectors.kind.push_back(irregular ? kinds.add(X[j] - X[i])
+                                                    : kinds.find(X[j] - X[i], particles.spacing[i]));
+        bonds.rest_length.push_back(model.bond_vectors[bonds.count() - 1].norm());
     }
     bonds.broken_at.assign(pairs.size(), Bonds::intact);
     index_bonds(bonds, particles.count());

@@ -40,6 +40,7 @@ template <int Dim>
 struct Model {
     Particles<Dim> particles;
     Bonds bonds;
+    BondVectors<Dim> bond_vectors{};
     std::optional<Spin> spin{};
     std::vector<Material> materials;
     std::vector<Body<Dim>> bodies;
@@ -54,7 +55,7 @@ template <int Dim>
 void add_body(Model<Dim>& model, Body<Dim> body);
 
 /// Finds all bonds: pairs of one body, or of bodies bonded to each other, nearer than influence * l0 in the
-/// reference configuration and not cut by a notch. Replaces model.bonds.
+/// reference configuration and not cut by a notch. Replaces model.bonds and model.bond_vectors.
 /// Returns, for every notch, the number of bonds it cut.
 template <int Dim>
 std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notches);

@@ -8,8 +8,8 @@
 
 namespace hibi {
 
-/// The bonds seen from every particle, each bond twice: the form the hot loops walk. A loop over it writes
-/// only to its own particle, so it gives the same bits on any number of threads. Slots of particle i:
+/// The bonds seen from every particle, each bond twice: the form that loops over particles walk. A loop over it
+/// writes only to its own particle, so it gives the same bits on any number of threads. Slots of particle i:
 /// start[i] .. start[i+1], in the order of Bonds::bonds_of.
 template <int Dim>
 struct BondList {
@@ -32,8 +32,7 @@ struct BondList {
                 const int b = bond[k];
                 const bool forward = bonds.first[b] == i;
                 neighbour[k] = bonds.other(b, i);
-                r0[k] =
-                    model.particles.reference_position[neighbour[k]] - model.particles.reference_position[i];
+                r0[k] = (forward ? 1 : -1) * model.bond_vectors[b];
                 const double square = r0[k].squaredNorm(), alive = bonds.is_intact(b) ? 1 : 0;
                 own[k] = alive * (forward ? s.forward[b] : s.backward[b]) / square;
                 other[k] = alive * (forward ? s.backward[b] : s.forward[b]) / square;
@@ -50,6 +49,16 @@ struct BondList {
             upper[k] = own[k] == 0 ? never : limits.upper[bond[k]] * r0[k].squaredNorm();
             lower[k] = own[k] == 0 ? -never : limits.lower[bond[k]] * r0[k].squaredNorm();
         }
+    }
+
+    bool is_beyond_limits(const std::vector<Vec<Dim>>& displacement, int i) const {
+        bool beyond = false;
+        for (int k = start[i]; k < start[i + 1]; ++k) {
+            const Vec<Dim> du = displacement[neighbour[k]] - displacement[i];
+            const double growth = 2 * r0[k].dot(du) + du.squaredNorm();  // L^2 - L0^2
+            beyond |= growth > upper[k] || growth < lower[k];
+        }
+        return beyond;
     }
 
     void remove(const Bonds& bonds, int broken) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,7 +20,7 @@ double bond_strain(const Vec<Dim>& r0, const Vec<Dim>& du) {
 /// Bounds of a bond in the form the hot loop compares, (L^2 - L0^2) / L0^2: it breaks above `upper` or below
 /// `lower`.
 struct BreakLimits {
-    std::vector<double> upper, lower;  ///< per bond; infinite where it cannot break
+    std::vector<double> upper{}, lower{};  ///< per bond; infinite where it cannot break. Empty: nothing can
 };
 
 /// What one particle feels, for energies, pictures and files.
@@ -36,25 +37,35 @@ template <int Dim>
 class ElasticLaw {
  public:
     virtual ~ElasticLaw() = default;
+
+    /// The displacements of particles [begin, end) have changed since the last call.
+    virtual void displaced(const Model<Dim>& model, int begin, int end) = 0;
+    /// What each particle's neighbourhood has become; then come the forces. Returns in which blocks of
+    /// particles (of parallel_block each, rising) bonds may be beyond their limits: of such a bond, the block
+    /// of its first particle.
+    virtual std::vector<int> deform(const Model<Dim>& model) = 0;
     /// Overwrites particles.force, and spin.torque where there is one, with -dU/du (N) and -dU/dtheta (N m).
-    /// Returns whether some bond is beyond its limits.
-    virtual bool forces(Model<Dim>& model) = 0;
+    /// `then`, if given, is called for every block of particles once its forces stand.
+    virtual void sum_forces(Model<Dim>& model, const std::function<void(int begin, int end)>& then = {}) = 0;
+    /// All three.
+    void forces(Model<Dim>& model);
+
     virtual LocalState<Dim> local(const Model<Dim>& model, int particle) const = 0;
+    /// Sum of the particles' energies (J).
+    virtual double energy(const Model<Dim>& model) const = 0;
     /// The bond carries nothing from now on; the survivors keep their weights.
     virtual void remove(const Bonds& bonds, int bond) = 0;
-    /// Limits to be watched by forces(); none are watched before this is called.
-    virtual void watch(const BreakLimits& limits) = 0;
-
-    /// Sum of the particles' energies (J).
-    double energy(const Model<Dim>& model) const;
 };
 
 /// The law that `elasticity` names, on the reference state of the model; bonds already broken carry nothing.
 /// The thesis variant uses the model's `spin`, which must exist.
+/// Without limits no bond is ever beyond one.
 template <int Dim>
-std::unique_ptr<ElasticLaw<Dim>> make_elastic_law(const Model<Dim>& model, Elasticity elasticity);
+std::unique_ptr<ElasticLaw<Dim>> make_elastic_law(const Model<Dim>& model, Elasticity elasticity,
+                                                  const BreakLimits& limits = {});
 template <>
-std::unique_ptr<ElasticLaw<2>> make_elastic_law<2>(const Model<2>& model, Elasticity elasticity);
+std::unique_ptr<ElasticLaw<2>> make_elastic_law<2>(const Model<2>& model, Elasticity elasticity,
+                                                   const BreakLimits& limits);
 
 /// At rest, inertia m l0^2 / 6.
 template <int Dim>

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -27,7 +28,10 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
     Particles<Dim>& particles = model_.particles;
     const int n = particles.count();
     if (physics_.elasticity == Elasticity::thesis) model_.spin = make_spin(model_);
-    law_ = make_elastic_law<Dim>(model_, physics_.elasticity);
+    const bool can_break = std::any_of(model_.materials.begin(), model_.materials.end(),
+                                       [](const Material& m) { return m.can_break(); });
+    if (can_break) limits_ = break_limits(model_, break_strains(model_, physics_));
+    law_ = make_elastic_law<Dim>(model_, physics_.elasticity, limits_);
 
     held_ = held_components<Dim>(n, physics_);
     inverse_mass_.resize(n);
@@ -40,16 +44,10 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
             inverse_inertia_.push_back(inverse_mass_[i].isZero(0) ? 0 : 1 / model_.spin->inertia[i]);
     }
 
-    const bool can_break = std::any_of(model_.materials.begin(), model_.materials.end(),
-                                       [](const Material& m) { return m.can_break(); });
     if (physics_.statics)
         time_step_ = physics_.statics->step();
     else
         choose_time_step(can_break);
-    if (can_break) {
-        limits_ = break_limits(model_, break_strains(model_, physics_));
-        law_->watch(limits_);
-    }
 
     // The state at t = 0: prescribed positions and velocities, then the forces there.
     for (std::size_t l = 0; l < physics_.loads.size(); ++l) {
@@ -67,10 +65,12 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
             }
         }
     }
+    list_applied_forces();
     if (physics_.statics) {
         start_statics();
         return;
     }
+    list_stages();
     if (model_.spin) turn_with_neighbours();
     update_loads(0);
     sum_forces();
@@ -134,72 +134,83 @@ void Simulation<Dim>::step() {
         explicit_step();
 }
 
+/// What is absent from the physics is no stage.
+template <int Dim>
+void Simulation<Dim>::list_stages() {
+    const auto stage = [&](const char* name, auto&& run) { stages_.push_back({name, run}); };
+    stage(damping_rate_ > 0 ? "half kick, damped, and drift" : "half kick and drift",
+          [this] { kick_and_drift(); });
+    if (!driven_.empty()) stage("prescribed motion", [this] { prescribe_motion(); });
+    if (!applied_.empty()) stage("applied loads", [this] { update_loads(time_step_); });
+    std::string deform = model_.spin ? "dilatation (thesis variant)" : "rotation and dilatation (moment-matched)";
+    if (can_break()) deform += ", watch limits";
+    stage(deform.c_str(), [this] { suspects_ = law_->deform(model_); });
+    std::string forces = model_.spin ? "bond forces and torques" : "bond forces";
+    if (physics_.gravity) forces += ", gravity";
+    stage((forces + ", half kick").c_str(), [this] { sum_forces_and_kick(); });
+    if (can_break()) stage("judge and break bonds", [this] { if (!suspects_.empty()) judge_and_break(); });
+}
+
 template <int Dim>
 void Simulation<Dim>::explicit_step() {
-    for (Driven& d : driven_) d.old_force = model_.particles.force[d.particle][d.axis];
-    kick();
-    drift();
-    time_ = static_cast<double>(steps_) * time_step_;
-    prescribe_motion();
-    update_loads(time_step_);
-    sum_forces();
-    kick();
-    finish_motion();
-    if (beyond_limits_) judge_and_break();
+    using Clock = std::chrono::steady_clock;
+    for (Stage& stage : stages_) {
+        if (!profiles_) {
+            stage.run();
+            continue;
+        }
+        const auto begin = Clock::now();
+        stage.run();
+        stage.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    }
     if (!std::isfinite(kinetic_)) report_failure();
 }
 
 /// Half a step of dv/dt = a - c v by the midpoint rule; what damping takes out is then m (c dt / 8) |v +
 /// v_new|^2 to the last digit.
 template <int Dim>
-void Simulation<Dim>::kick() {
+typename Simulation<Dim>::KickSums Simulation<Dim>::kick(int begin, int end) {
     Particles<Dim>& particles = model_.particles;
     Spin* spin = model_.spin ? &*model_.spin : nullptr;
     const double half = time_step_ / 2, g = damping_rate_ * time_step_ / 4;
-    struct Sums {
-        double kinetic = 0, damped = 0;
-        void operator+=(const Sums& other) {
-            kinetic += other.kinetic;
-            damped += other.damped;
+    KickSums sums;
+    for (int i = begin; i < end; ++i) {
+        Vec<Dim>& v = particles.velocity[i];
+        const Vec<Dim> push = half * inverse_mass_[i].cwiseProduct(particles.force[i]);
+        if (g == 0) {
+            v += push;
+        } else {
+            const Vec<Dim> old = v;
+            v = ((1 - g) * v + push) / (1 + g);
+            for (int a = 0; a < Dim; ++a)  // driven components are overwritten later, and are not damped
+                if (inverse_mass_[i][a] > 0)
+                    sums.damped += particles.mass[i] * g / 2 * (old[a] + v[a]) * (old[a] + v[a]);
         }
-    };
-    const Sums sums = parallel_sum<Sums>(particles.count(), [&](int begin, int end) {
-        Sums part;
-        for (int i = begin; i < end; ++i) {
-            Vec<Dim>& v = particles.velocity[i];
-            const Vec<Dim> push = half * inverse_mass_[i].cwiseProduct(particles.force[i]);
-            if (g == 0) {
-                v += push;
-            } else {
-                const Vec<Dim> old = v;
-                v = ((1 - g) * v + push) / (1 + g);
-                for (int a = 0; a < Dim; ++a)  // driven components are overwritten later, and are not damped
-                    if (inverse_mass_[i][a] > 0)
-                        part.damped += particles.mass[i] * g / 2 * (old[a] + v[a]) * (old[a] + v[a]);
-            }
-            part.kinetic += particles.mass[i] / 2 * v.squaredNorm();
-            if (spin) {
-                double& w = spin->velocity[i];
-                const double old = w;
-                w = ((1 - g) * w + half * inverse_inertia_[i] * spin->torque[i]) / (1 + g);
-                part.damped += spin->inertia[i] * g / 2 * (old + w) * (old + w);
-                part.kinetic += spin->inertia[i] / 2 * w * w;
-            }
+        sums.kinetic += particles.mass[i] / 2 * v.squaredNorm();
+        if (spin) {
+            double& w = spin->velocity[i];
+            const double old = w;
+            w = ((1 - g) * w + half * inverse_inertia_[i] * spin->torque[i]) / (1 + g);
+            sums.damped += spin->inertia[i] * g / 2 * (old + w) * (old + w);
+            sums.kinetic += spin->inertia[i] / 2 * w * w;
         }
-        return part;
-    });
-    kinetic_ = sums.kinetic;
-    damped_ += sums.damped;
+    }
+    return sums;
 }
 
 template <int Dim>
-void Simulation<Dim>::drift() {
+void Simulation<Dim>::kick_and_drift() {
     Particles<Dim>& particles = model_.particles;
+    for (Driven& d : driven_) d.old_force = particles.force[d.particle][d.axis];
+    time_ = static_cast<double>(steps_) * time_step_;
     parallel_for(particles.count(), [&](int begin, int end) {
+        kick_sums_[begin / parallel_block] = kick(begin, end);
         for (int i = begin; i < end; ++i) particles.displacement[i] += time_step_ * particles.velocity[i];
         if (model_.spin)
             for (int i = begin; i < end; ++i) model_.spin->angle[i] += time_step_ * model_.spin->velocity[i];
+        law_->displaced(model_, begin, end);
     });
+    for (const KickSums& sums : kick_sums_) damped_ += sums.damped;
 }
 
 /// Overwrites what kick and drift did to driven components. Until finish_motion their velocity is the mean
@@ -224,6 +235,7 @@ void Simulation<Dim>::prescribe_motion() {
         work_ += m * (d.velocity * d.velocity - old_velocity * old_velocity) / 2;
         model_.particles.displacement[d.particle][d.axis] = d.displacement;
         model_.particles.velocity[d.particle][d.axis] = d.moved / time_step_;
+        law_->displaced(model_, d.particle, d.particle + 1);
     }
 }
 
@@ -267,17 +279,50 @@ void Simulation<Dim>::update_loads(double step) {
 }
 
 template <int Dim>
-void Simulation<Dim>::sum_forces() {
+void Simulation<Dim>::list_applied_forces() {
+    const int n = model_.particles.count(), blocks = (n + parallel_block - 1) / parallel_block;
+    for (int l = 0; l < static_cast<int>(loads_.size()); ++l)
+        for (int k = 0; k < static_cast<int>(loads_[l].force.size()); ++k)
+            applied_.push_back({physics_.loads[l].particles[k], l, k});
+    std::ranges::stable_sort(applied_, {}, &Applied::particle);
+    for (int b = 0; b <= blocks; ++b)
+        applied_start_.push_back(static_cast<int>(
+            std::ranges::lower_bound(applied_, b * parallel_block, {}, &Applied::particle) - applied_.begin()));
+    kick_sums_.resize(blocks);
+}
+
+/// And gravity, to the particles of a block.
+template <int Dim>
+void Simulation<Dim>::add_applied_forces(int begin, int end) {
     Particles<Dim>& particles = model_.particles;
-    beyond_limits_ = law_->forces(model_);
-    for (std::size_t l = 0; l < loads_.size(); ++l)
-        for (std::size_t k = 0; k < loads_[l].force.size(); ++k)
-            particles.force[physics_.loads[l].particles[k]] += loads_[l].force[k];
+    const int block = begin / parallel_block;
+    for (int k = applied_start_[block]; k < applied_start_[block + 1]; ++k)
+        particles.force[applied_[k].particle] += loads_[applied_[k].load].force[applied_[k].place];
     if (!physics_.gravity) return;
     const Vec<Dim> g = physics_.gravity->acceleration.template head<Dim>();
-    parallel_for(particles.count(), [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) particles.force[i] += particles.mass[i] * g;
+    for (int i = begin; i < end; ++i) particles.force[i] += particles.mass[i] * g;
+}
+
+/// All forces of the current displacements.
+template <int Dim>
+void Simulation<Dim>::sum_forces() {
+    parallel_for(model_.particles.count(), [&](int begin, int end) { law_->displaced(model_, begin, end); });
+    suspects_ = law_->deform(model_);
+    law_->sum_forces(model_, [&](int begin, int end) { add_applied_forces(begin, end); });
+}
+
+template <int Dim>
+void Simulation<Dim>::sum_forces_and_kick() {
+    law_->sum_forces(model_, [&](int begin, int end) {
+        add_applied_forces(begin, end);
+        kick_sums_[begin / parallel_block] = kick(begin, end);
     });
+    kinetic_ = 0;
+    for (const KickSums& sums : kick_sums_) {
+        kinetic_ += sums.kinetic;
+        damped_ += sums.damped;
+    }
+    finish_motion();
 }
 
 /// All bonds are judged on the same state and then broken, so the result does not depend on their order. What
@@ -287,16 +332,22 @@ template <int Dim>
 void Simulation<Dim>::judge_and_break() {
     const Particles<Dim>& particles = model_.particles;
     Bonds& bonds = model_.bonds;
-    for (int b = 0; b < bonds.count(); ++b) {
-        if (!bonds.is_intact(b)) continue;
-        const int i = bonds.first[b], j = bonds.second[b];
-        const Vec<Dim> r0 = particles.reference_position[j] - particles.reference_position[i];
-        const Vec<Dim> du = particles.displacement[j] - particles.displacement[i];
-        const double growth = 2 * r0.dot(du) + du.squaredNorm(), square = r0.squaredNorm();
-        if (!(growth > limits_.upper[b] * square || growth < limits_.lower[b] * square)) continue;
-        just_broken_.push_back(b);
-        breaking_strains_.push_back(bond_strain<Dim>(r0, du));
+    for (const int block : suspects_) {
+        const int begin = block * parallel_block, end = std::min(particles.count(), begin + parallel_block);
+        // The bonds whose first particle lies in the block follow one another.
+        const auto first = std::lower_bound(bonds.first.begin(), bonds.first.end(), begin);
+        for (auto b = static_cast<int>(first - bonds.first.begin());
+             b < bonds.count() && bonds.first[b] < end; ++b) {
+            if (!bonds.is_intact(b)) continue;
+            const Vec<Dim>& r0 = model_.bond_vectors[b];
+            const Vec<Dim> du = particles.displacement[bonds.second[b]] - particles.displacement[bonds.first[b]];
+            const double growth = 2 * r0.dot(du) + du.squaredNorm(), square = r0.squaredNorm();
+            if (!(growth > limits_.upper[b] * square || growth < limits_.lower[b] * square)) continue;
+            just_broken_.push_back(b);
+            breaking_strains_.push_back(bond_strain<Dim>(r0, du));
+        }
     }
+    if (just_broken_.empty()) return;
     break_bonds();
     sum_forces();
 }
@@ -437,7 +488,7 @@ double Simulation<Dim>::closest_to_breaking() const {
         if (!bonds.is_intact(b)) continue;
         const int i = bonds.first[b], j = bonds.second[b];
         const double strain =
-            bond_strain<Dim>(model_.particles.reference_position[j] - model_.particles.reference_position[i],
+            bond_strain<Dim>(model_.bond_vectors[b],
                              model_.particles.displacement[j] - model_.particles.displacement[i]);
         const double bound = strain > 0 ? limits_.upper[b] : limits_.lower[b];
         if (std::isfinite(bound)) closest = std::max(closest, strain / (std::sqrt(1 + bound) - 1));
@@ -467,16 +518,16 @@ std::string Simulation<Dim>::likely_cause() const {
 template <int Dim>
 std::vector<std::string> Simulation<Dim>::stage_names() const {
     if (physics_.statics) return static_stage_names();
-    std::vector<std::string> names = {"half kick and drift"};
-    if (!driven_.empty()) names.push_back("prescribed motion");
-    if (std::any_of(loads_.begin(), loads_.end(), [](const LoadState& l) { return !l.force.empty(); }))
-        names.push_back("applied loads");
-    names.push_back(model_.spin ? "bond forces and torques (thesis variant)"
-                                : "bond forces (moment-matched)");
-    if (physics_.gravity) names.push_back("gravity");
-    names.push_back(damping_rate_ > 0 ? "half kick, damped" : "half kick");
-    if (!limits_.upper.empty()) names.push_back("judge and break bonds");
+    std::vector<std::string> names;
+    for (const Stage& stage : stages_) names.push_back(stage.name);
     return names;
+}
+
+template <int Dim>
+std::vector<StageTime> Simulation<Dim>::stage_times() const {
+    std::vector<StageTime> times;
+    for (const Stage& stage : stages_) times.push_back({stage.name, stage.seconds});
+    return times;
 }
 
 template class Simulation<2>;

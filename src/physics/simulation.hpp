@@ -1,12 +1,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/stage_time.hpp"
 #include "model/model.hpp"
 #include "physics/elastic.hpp"
 #include "physics/equilibrium.hpp"
@@ -47,6 +49,7 @@ class Simulation {
     /// Throws std::runtime_error where the physics does not fit the model (a damping ratio, or statics, on a
     /// free body) or the prescribed time step is not stable.
     Simulation(Model<Dim> model, Physics physics);
+    Simulation(const Simulation&) = delete;  // its stages point to it
 
     void step();
 
@@ -90,6 +93,9 @@ class Simulation {
 
     /// The stages of a step in order, as `check` shows them.
     std::vector<std::string> stage_names() const;
+    /// From now on the time of every stage of an explicit step is taken.
+    void profile() { profiles_ = true; }
+    std::vector<StageTime> stage_times() const;
 
  private:
     struct LoadState {
@@ -112,14 +118,29 @@ class Simulation {
         double load_time = 0;
     };
 
+    /// Named part of an explicit step.
+    struct Stage {
+        std::string name;
+        std::function<void()> run;
+        double seconds = 0;  ///< spent in it so far, where the run is profiled
+    };
+    /// Of a block of particles, in kicks (J).
+    struct KickSums {
+        double kinetic = 0, damped = 0;
+    };
+
+    void list_stages();
     void explicit_step();
     void choose_time_step(bool can_break);
     void turn_with_neighbours();
-    void kick();
-    void drift();
+    KickSums kick(int begin, int end);
+    void kick_and_drift();
     void prescribe_motion();
+    void list_applied_forces();
     void update_loads(double step);
+    void add_applied_forces(int begin, int end);
     void sum_forces();
+    void sum_forces_and_kick();
     void finish_motion();
     void judge_and_break();
     void break_bonds();
@@ -156,10 +177,19 @@ class Simulation {
     std::vector<double> inverse_inertia_;  ///< thesis variant; 0 where held
     std::vector<LoadState> loads_;
     std::vector<Driven> driven_;
+    /// Which applied forces act in which block of particles: those of block b at applied_start_[b] and on.
+    struct Applied {
+        int particle = 0, load = 0, place = 0;  ///< loads_[load].force[place]
+    };
+    std::vector<Applied> applied_;
+    std::vector<int> applied_start_;
+    std::vector<KickSums> kick_sums_;  ///< per block
+    std::vector<Stage> stages_;
+    bool profiles_ = false;
     double stable_time_step_ = 0, time_step_ = 0, damping_rate_ = 0;
     double time_ = 0;
     std::int64_t steps_ = 0;
-    bool beyond_limits_ = false;
+    std::vector<int> suspects_;  ///< blocks of particles in which bonds may be beyond their limits
     int broken_ = 0;
     double kinetic_ = 0, damped_ = 0, released_ = 0, work_ = 0;
     std::vector<int> just_broken_;

@@ -16,8 +16,9 @@ namespace {
 /// Forces and torques are the exact derivatives. Plane only.
 class ThesisLaw final : public ElasticLaw<2> {
  public:
-    explicit ThesisLaw(const Model<2>& model) : list_(model, thesis_weights(model)) {
+    ThesisLaw(const Model<2>& model, const BreakLimits& limits) : list_(model, thesis_weights(model)) {
         assert(model.spin);
+        if (!limits.upper.empty()) list_.watch(limits);
         for (const Material& m : model.materials) {
             two_mu_.push_back(2 * shear_modulus(m));
             lambda_.push_back(lame_lambda(m, model.assumption));
@@ -25,16 +26,25 @@ class ThesisLaw final : public ElasticLaw<2> {
         dilatation_.resize(model.particles.count());
     }
 
-    bool forces(Model<2>& model) override {
+    void displaced(const Model<2>&, int, int) override {}
+
+    std::vector<int> deform(const Model<2>& model) override {
+        const Particles<2>& particles = model.particles;
+        return blocks_where(particles.count(), [&](int begin, int end) {
+            bool beyond = false;
+            for (int i = begin; i < end; ++i) {
+                dilatation_[i] = dilatation(particles, *model.spin, i);
+                if (!list_.upper.empty()) beyond |= list_.is_beyond_limits(particles.displacement, i);
+            }
+            return beyond;
+        });
+    }
+
+    void sum_forces(Model<2>& model, const std::function<void(int, int)>& then) override {
         Particles<2>& particles = model.particles;
         const std::vector<Vec<2>>& u = particles.displacement;
         Spin& spin = *model.spin;
         parallel_for(particles.count(), [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) dilatation_[i] = dilatation(particles, spin, i);
-        });
-        std::vector<char> passed((particles.count() + parallel_block - 1) / parallel_block, 0);
-        parallel_for(particles.count(), [&](int begin, int end) {
-            bool beyond = false;
             for (int i = begin; i < end; ++i) {
                 const double two_mu = two_mu_[particles.material[i]];
                 const double pressure = lambda_[particles.material[i]] * dilatation_[i];
@@ -52,19 +62,20 @@ class ThesisLaw final : public ElasticLaw<2> {
                     // -dU/dphi = (spring - push) r . J R r0, and each end takes half of the bond's angle
                     const Vec<2> r = r0 + du;
                     moment += (spring - push) * (r.y() * Rr0.x() - r.x() * Rr0.y()) / 2;
-                    if (!list_.upper.empty()) {
-                        const double growth = 2 * r0.dot(du) + du.squaredNorm();
-                        beyond |= growth > list_.upper[k] || growth < list_.lower[k];
-                    }
                 }
                 particles.force[i] = sum;
                 spin.torque[i] = moment;
             }
-            if (beyond) passed[begin / parallel_block] = 1;
+            if (then) then(begin, end);
         });
-        for (const char p : passed)
-            if (p) return true;
-        return false;
+    }
+
+    double energy(const Model<2>& model) const override {
+        return parallel_sum<double>(model.particles.count(), [&](int begin, int end) {
+            double sum = 0;
+            for (int i = begin; i < end; ++i) sum += local(model, i).energy;
+            return sum;
+        });
     }
 
     LocalState<2> local(const Model<2>& model, int i) const override {
@@ -89,8 +100,6 @@ class ThesisLaw final : public ElasticLaw<2> {
     }
 
     void remove(const Bonds& bonds, int bond) override { list_.remove(bonds, bond); }
-
-    void watch(const BreakLimits& limits) override { list_.watch(limits); }
 
  private:
     struct Rotated {
@@ -122,8 +131,8 @@ class ThesisLaw final : public ElasticLaw<2> {
 
 }  // namespace
 
-std::unique_ptr<ElasticLaw<2>> make_thesis_law(const Model<2>& model) {
-    return std::make_unique<ThesisLaw>(model);
+std::unique_ptr<ElasticLaw<2>> make_thesis_law(const Model<2>& model, const BreakLimits& limits) {
+    return std::make_unique<ThesisLaw>(model, limits);
 }
 
 template <int Dim>

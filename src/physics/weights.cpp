@@ -90,26 +90,43 @@ BondWeights moment_matched_weights(const Model<Dim>& model) {
     const Particles<Dim>& particles = model.particles;
     const Bonds& bonds = model.bonds;
     BondWeights s{std::vector<double>(bonds.count()), std::vector<double>(bonds.count())};
+    // Particles deep inside a lattice are all alike: the weights of the last one mostly do for the next.
+    struct Neighbourhood {
+        std::vector<int> kinds;  ///< of the bonds, negative where they are seen from their second end
+        double spacing = 0;
+        bool operator==(const Neighbourhood&) const = default;
+    };
     parallel_for(particles.count(), [&](int begin, int end) {
+        Neighbourhood last, here;
         std::vector<Vec<Dim>> normals;
-        std::vector<double> share;
+        std::vector<double> share, weights;  // d w / n; s_ij / V
         for (int i = begin; i < end; ++i) {
-            normals.clear();
-            share.clear();
-            double density = 0;
+            here.kinds.clear();
+            here.spacing = particles.spacing[i];
             for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
-                const int b = bonds.bonds_of[k], j = bonds.other(b, i);
-                normals.push_back((particles.reference_position[j] - particles.reference_position[i]) /
-                                  bonds.rest_length[b]);
-                share.push_back(weight(bonds.rest_length[b], model.influence * particles.spacing[i]));
-                density += share.back();
+                const int b = bonds.bonds_of[k], kind = model.bond_vectors.kind[b];
+                here.kinds.push_back(bonds.first[b] == i ? kind : ~kind);
             }
-            for (double& w : share) w *= Dim / density;
-            const std::vector<double> factor = moment_factors<Dim>(normals, share);
+            if (i == begin || !(here == last)) {
+                normals.clear();
+                share.clear();
+                double density = 0;
+                for (const int kind : here.kinds) {
+                    const Vec<Dim> r0 = model.bond_vectors.table[kind < 0 ? ~kind : kind];
+                    const double length = r0.norm();
+                    normals.push_back((kind < 0 ? -1 : 1) / length * r0);
+                    share.push_back(weight(length, model.influence * here.spacing));
+                    density += share.back();
+                }
+                for (double& w : share) w *= Dim / density;
+                weights = moment_factors<Dim>(normals, share);
+                for (std::size_t k = 0; k < share.size(); ++k) weights[k] *= share[k];
+                std::swap(last, here);
+            }
             for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
-                const int b = bonds.bonds_of[k], local = k - bonds.start[i];
+                const int b = bonds.bonds_of[k];
                 auto& mine = bonds.first[b] == i ? s.forward : s.backward;
-                mine[b] = particles.volume[i] * factor[local] * share[local];
+                mine[b] = particles.volume[i] * weights[k - bonds.start[i]];
             }
         }
     });
@@ -141,7 +158,7 @@ std::vector<Vec<Dim>> nodal_areas(const Model<Dim>& model) {
     std::vector<Vec<Dim>> areas(particles.count(), Vec<Dim>::Zero());
     for (int b = 0; b < bonds.count(); ++b) {
         const int i = bonds.first[b], j = bonds.second[b];
-        const Vec<Dim> r0 = particles.reference_position[j] - particles.reference_position[i];
+        const Vec<Dim>& r0 = model.bond_vectors[b];
         const Vec<Dim> flux = (s.forward[b] + s.backward[b]) / r0.squaredNorm() * r0;
         areas[i] -= flux;
         areas[j] += flux;

@@ -1,0 +1,254 @@
+// The loops over the bonds, compiled once per level of the processor: HIBI_LEVEL is the namespace, HIBI_LEVEL_NAME
+// what it is called. Nothing but std::experimental::simd and plain pointers may be used here: an inline function
+// shared with the rest of the program could be the one that the linker keeps, and needs this level's processor.
+#include <experimental/simd>
+
+#include "physics/bond_kernel.hpp"
+
+namespace hibi::kernel::HIBI_LEVEL {
+
+namespace {
+
+namespace stdx = std::experimental;
+using Register = stdx::native_simd<double>;
+constexpr int width = static_cast<int>(Register::size());
+constexpr int registers = lanes / width;
+static_assert(registers * width == lanes);
+#define HIBI_INLINE [[gnu::always_inline]] inline
+
+/// One number for each particle of a chunk.
+struct Chunkful {
+    Register part[registers];
+    HIBI_INLINE Chunkful() = default;
+    HIBI_INLINE Chunkful(double same) {
+        for (Register& p : part) p = same;
+    }
+    HIBI_INLINE explicit Chunkful(const double* from) {
+        for (int k = 0; k < registers; ++k) part[k].copy_from(from + k * width, stdx::element_aligned);
+    }
+    HIBI_INLINE Chunkful(const double* from, const std::int32_t* at) {
+        for (int k = 0; k < registers; ++k)
+            part[k] = Register([&](auto lane) { return from[at[k * width + lane]]; });
+    }
+    HIBI_INLINE void store(double* to) const {
+        for (int k = 0; k < registers; ++k) part[k].copy_to(to + k * width, stdx::element_aligned);
+    }
+};
+template <class Of>
+HIBI_INLINE Chunkful each(Of&& of) {
+    Chunkful r;
+    for (int k = 0; k < registers; ++k) r.part[k] = of(k);
+    return r;
+}
+HIBI_INLINE Chunkful operator+(const Chunkful& a, const Chunkful& b) {
+    return each([&](int k) { return a.part[k] + b.part[k]; });
+}
+HIBI_INLINE Chunkful operator-(const Chunkful& a, const Chunkful& b) {
+    return each([&](int k) { return a.part[k] - b.part[k]; });
+}
+HIBI_INLINE Chunkful operator*(const Chunkful& a, const Chunkful& b) {
+    return each([&](int k) { return a.part[k] * b.part[k]; });
+}
+HIBI_INLINE Chunkful operator/(const Chunkful& a, const Chunkful& b) {
+    return each([&](int k) { return a.part[k] / b.part[k]; });
+}
+
+/// What holds for some particles of a chunk.
+struct Some {
+    Register::mask_type part[registers] = {};
+    HIBI_INLINE void add(const Some& other) {
+        for (int k = 0; k < registers; ++k) part[k] = part[k] || other.part[k];
+    }
+    HIBI_INLINE bool any() const {
+        bool some = false;
+        for (int k = 0; k < registers; ++k) some = some || stdx::any_of(part[k]);
+        return some;
+    }
+};
+/// Is `value` outside [lower, upper]? Not where it is no number.
+HIBI_INLINE Some outside(const Chunkful& value, const Chunkful& lower, const Chunkful& upper) {
+    Some s;
+    for (int k = 0; k < registers; ++k)
+        s.part[k] = value.part[k] > upper.part[k] || value.part[k] < lower.part[k];
+    return s;
+}
+
+/// Neighbours' numbers, by one load or lane by lane.
+struct Neighbours {
+    int first = 0;
+    const std::int32_t* at = nullptr;
+    HIBI_INLINE Chunkful operator()(const double* from) const {
+        return at ? Chunkful(from, at) : Chunkful(from + first);
+    }
+};
+
+/// A record of a uniform chunk.
+struct Common {
+    const Kind& kind;
+    HIBI_INLINE const Deforming<double>& deforming() const { return kind.deforming; }
+    HIBI_INLINE const Pulling<double>& pulling() const { return kind.pulling; }
+    HIBI_INLINE const Resting<double>& resting() const { return kind.resting; }
+};
+/// A record of any other.
+struct Own {
+    const Arrays& a;
+    int at;
+    HIBI_INLINE const Deforming<Lanes>& deforming() const { return a.deforming[at]; }
+    HIBI_INLINE const Pulling<Lanes>& pulling() const { return a.pulling[at]; }
+    HIBI_INLINE const Resting<Lanes>& resting() const { return a.resting[at]; }
+};
+
+/// Calls visit(neighbours, bond, r) for every record r of a chunk, with bond Common or Own.
+template <class Visit>
+HIBI_INLINE void each_record(const Arrays& a, int c, Visit&& visit) {
+    const Chunk& chunk = a.chunks[c];
+    const Record* record = a.records + chunk.record;
+    if (chunk.uniform >= 0)
+        for (int r = 0; r < chunk.records; ++r)
+            visit(Neighbours{c * lanes + record[r].offset}, Common{a.kinds[record[r].kind]}, r);
+    else if (chunk.neighbours < 0)
+        for (int r = 0; r < chunk.records; ++r)
+            visit(Neighbours{c * lanes + record[r].offset}, Own{a, chunk.own_lanes + r}, r);
+    else
+        for (int r = 0; r < chunk.records; ++r)
+            visit(Neighbours{0, a.neighbours + chunk.neighbours + r * lanes}, Own{a, chunk.own_lanes + r}, r);
+}
+
+HIBI_INLINE Chunkful of(const Arrays& a, int c, const double* each, double Particle::*common) {
+    const int u = a.chunks[c].uniform;
+    return u >= 0 ? Chunkful(a.uniform[u].*common) : Chunkful(each + c * lanes);
+}
+
+/// tr(A - M) and A21 - A12.
+struct Deformation {
+    Chunkful trace = 0.0, twist = 0.0;
+};
+
+template <bool Watch>
+HIBI_INLINE Deformation deformation(const Arrays& a, int c, Some& beyond) {
+    const int i = c * lanes;
+    const Chunkful ux(a.ux + i), uy(a.uy + i);
+    const Chunk& chunk = a.chunks[c];
+    const Record* record = a.records + chunk.record;
+    Deformation h;
+    each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int r) {
+        const Chunkful dx = neighbours(a.ux) - ux, dy = neighbours(a.uy) - uy;
+        const Chunkful bx(bond.deforming().ax), by(bond.deforming().ay);
+        h.trace = h.trace + (dx * bx + dy * by);
+        h.twist = h.twist + (dy * bx - dx * by);
+        if constexpr (Watch) {
+            // From one end is enough: that towards higher particles.
+            if (chunk.neighbours < 0 && record[r].offset < 0) return;
+            const Chunkful x(bond.resting().x), y(bond.resting().y);
+            const Chunkful growth = 2.0 * (dx * x + dy * y) + (dx * dx + dy * dy);  // L^2 - L0^2
+            if (chunk.own_limits < 0) {
+                const Limit<double>& limit = a.kinds[record[r].kind].limit;
+                beyond.add(outside(growth, limit.lower, limit.upper));
+            } else {
+                const Limit<Lanes>& limit = a.limit[chunk.own_limits + r];
+                beyond.add(outside(growth, Chunkful(limit.lower), Chunkful(limit.upper)));
+            }
+        }
+    });
+    return h;
+}
+
+/// Polar rotation as R - I, and dilatation D = tr(R^T A) - m, without cancellation at small strain and with one
+/// division: q - m = (q^2 - m^2) / (q + m), and along - q likewise unless along < 0.
+struct Polar {
+    Chunkful cosine_less_one, sine, dilatation;
+    HIBI_INLINE Polar(const Deformation& h, const Chunkful& m) {
+        for (int k = 0; k < registers; ++k) {
+            const Register trace = h.trace.part[k], twist = h.twist.part[k], rest = m.part[k];
+            const Register along = rest + trace;
+            const Register q = stdx::sqrt(along * along + twist * twist);
+            // No bonds left, or exactly turned inside out: any rotation is stationary.
+            const auto none = q == 0, inverted = along < 0;
+            Register safe_q = q, sum = q + along;
+            stdx::where(none, safe_q) = 1.0;
+            stdx::where(inverted || none, sum) = 1.0;
+            const Register high = safe_q + rest;
+            const Register reciprocal = 1.0 / (safe_q * sum * high);
+            const Register s = twist * (reciprocal * (sum * high));
+            Register c = -twist * s * (reciprocal * (safe_q * high));
+            stdx::where(inverted, c) = (along - q) * (reciprocal * (sum * high));
+            Register D = (trace * (2.0 * rest + trace) + twist * twist) * (reciprocal * (safe_q * sum));
+            stdx::where(none, c) = 0.0;
+            stdx::where(none, D) = 0.0;
+            cosine_less_one.part[k] = c;
+            sine.part[k] = s;
+            dilatation.part[k] = D;
+        }
+    }
+};
+
+template <bool Watch>
+bool deform(const Arrays& a, int begin, int end) {
+    Some beyond;
+    for (int c = begin; c < end; ++c) {
+        const Polar p(deformation<Watch>(a, c, beyond), of(a, c, a.trace, &Particle::trace));
+        const Chunkful two_mu = of(a, c, a.two_mu, &Particle::two_mu);
+        const Chunkful pressure = of(a, c, a.lambda, &Particle::lambda) * p.dilatation;
+        const Chunkful cosine = 1.0 + p.cosine_less_one;
+        (pressure * cosine - two_mu * p.cosine_less_one).store(a.diagonal + c * lanes);
+        (pressure * p.sine - two_mu * p.sine).store(a.twist + c * lanes);
+    }
+    return beyond.any();
+}
+
+/// f_i = P_i sum_j s_ij r0 / |r0|^2 + sum_j [ spring du + s_ji / |r0|^2 P_j r0 ]
+void sum_forces(const Arrays& a, int begin, int end) {
+    for (int c = begin; c < end; ++c) {
+        const int i = c * lanes;
+        const Chunkful ux(a.ux + i), uy(a.uy + i);
+        Chunkful fx = 0.0, fy = 0.0;
+        each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int) {
+            const Chunkful dx = neighbours(a.ux) - ux, dy = neighbours(a.uy) - uy;
+            const Chunkful diagonal = neighbours(a.diagonal), twist = neighbours(a.twist);
+            const Chunkful bx(bond.pulling().ex), by(bond.pulling().ey), spring(bond.pulling().spring);
+            fx = fx + (spring * dx + (diagonal * bx - twist * by));
+            fy = fy + (spring * dy + (diagonal * by + twist * bx));
+        });
+        const Chunkful gx = of(a, c, a.gx, &Particle::gx), gy = of(a, c, a.gy, &Particle::gy);
+        const Chunkful diagonal(a.diagonal + i), twist(a.twist + i);
+        double x[lanes], y[lanes];
+        (fx + (diagonal * gx - twist * gy)).store(x);
+        (fy + (diagonal * gy + twist * gx)).store(y);
+        const int count = a.particles - i < lanes ? a.particles - i : lanes;
+        for (int l = 0; l < count; ++l) {
+            a.force[2 * (i + l)] = x[l];
+            a.force[2 * (i + l) + 1] = y[l];
+        }
+    }
+}
+
+/// U_i = mu sum_j s_ij |r - R_i r0|^2 / |r0|^2 + lambda V D_i^2 / 2
+double energy(const Arrays& a, int begin, int end) {
+    double sum = 0;
+    Some none;
+    for (int c = begin; c < end; ++c) {
+        const Polar p(deformation<false>(a, c, none), of(a, c, a.trace, &Particle::trace));
+        const int i = c * lanes;
+        const Chunkful ux(a.ux + i), uy(a.uy + i);
+        Chunkful springs = 0.0;
+        each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int) {
+            const Chunkful x(bond.resting().x), y(bond.resting().y);
+            const Chunkful dx = neighbours(a.ux) - ux - (p.cosine_less_one * x - p.sine * y);
+            const Chunkful dy = neighbours(a.uy) - uy - (p.sine * x + p.cosine_less_one * y);
+            springs = springs + Chunkful(bond.resting().own) * (dx * dx + dy * dy);
+        });
+        const Chunkful two_mu = of(a, c, a.two_mu, &Particle::two_mu);
+        const Chunkful bulk = of(a, c, a.lambda, &Particle::lambda) * of(a, c, a.volume, &Particle::volume);
+        double of_lane[lanes];
+        (0.5 * (two_mu * springs + bulk * (p.dilatation * p.dilatation))).store(of_lane);
+        for (const double e : of_lane) sum += e;
+    }
+    return sum;
+}
+
+}  // namespace
+
+extern const Loops loops;
+const Loops loops{HIBI_LEVEL_NAME, deform<false>, deform<true>, sum_forces, energy};
+
+}  // namespace hibi::kernel::HIBI_LEVEL

@@ -1,0 +1,79 @@
+// How fast the solver steps: bond-updates per second, one undirected bond and one whole step each, of a free plate
+// with r_e / l0 as given. Run build/release/tests/bench_steps; tests/bench/README.md says how to read it.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+
+#include "base/hash.hpp"
+#include "base/parallel.hpp"
+#include "physics/simulation.hpp"
+#include "support/plates.hpp"
+
+namespace hibi {
+namespace {
+
+enum class What { plain, breakable, damped_and_heavy, jittered, turned };
+
+Simulation<2>& plate_in_motion(int side, double influence, What what) {
+    static std::map<std::tuple<int, double, What>, std::unique_ptr<Simulation<2>>> known;
+    auto& simulation = known[{side, influence, what}];
+    if (simulation) return *simulation;
+    known.clear();
+    Material material = test::concrete();
+    if (what == What::breakable) material.break_strain = 0.5;
+    Model<2> model;
+    model.materials = {material};
+    model.influence = influence;
+    const double length = side;
+    Body<2> body{.name = "plate", .shape = {Box<2>{Vec<2>::Zero(), Vec<2>::Constant(length)}}, .spacing = 1};
+    if (what == What::jittered) body.lattice.jitter = 0.1;
+    if (what == What::turned) body.lattice.angle = 0.3;
+    add_body(model, body);
+    connect<2>(model, {});
+    for (int i = 0; i < model.particles.count(); ++i)
+        for (int a = 0; a < 2; ++a) model.particles.velocity[i][a] = 0.02 * (unit_random(mix_bits(2 * i + a)) - 0.5);
+    Physics physics;
+    if (what == What::damped_and_heavy) {
+        physics.gravity = Gravity{Vec3(0, -9.81, 0)};
+        physics.damping = Damping{.rate = 0.01};
+    }
+    auto& place = known[{side, influence, what}];
+    place = std::make_unique<Simulation<2>>(std::move(model), physics);
+    return *place;
+}
+
+void step(benchmark::State& state, What what) {
+    const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(state.range(0)))));
+    set_threads(static_cast<int>(state.range(2)));
+    Simulation<2>& simulation = plate_in_motion(side, static_cast<double>(state.range(1)) / 1000, what);
+    for (auto _ : state) simulation.step();
+    const auto steps = static_cast<double>(state.iterations());
+    state.counters["bond-updates/s"] =
+        benchmark::Counter(steps * simulation.model().bonds.count(), benchmark::Counter::kIsRate);
+    state.counters["ns/particle-step"] =
+        benchmark::Counter(steps * simulation.model().particles.count() * 1e-9,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void sizes(benchmark::internal::Benchmark* bench) {
+    bench->ArgNames({"particles", "re", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
+    for (const int re : {2100, 3015, 4100})
+        for (const int particles : {10'000, 100'000, 1'000'000})
+            for (const int threads : {1, 2}) bench->Args({particles, re, threads});
+}
+
+BENCHMARK_CAPTURE(step, plain, What::plain)->Apply(sizes);
+BENCHMARK_CAPTURE(step, breakable, What::breakable)->Apply(sizes);
+void one_size(benchmark::internal::Benchmark* bench) {
+    bench->ArgNames({"particles", "re", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
+    for (const int threads : {1, 2}) bench->Args({100'000, 3015, threads});
+}
+BENCHMARK_CAPTURE(step, damped_and_heavy, What::damped_and_heavy)->Apply(one_size);
+BENCHMARK_CAPTURE(step, turned, What::turned)->Apply(one_size);
+BENCHMARK_CAPTURE(step, jittered, What::jittered)->Apply(one_size);
+
+}  // namespace
+}  // namespace hibi
+
+BENCHMARK_MAIN();
