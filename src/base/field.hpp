@@ -10,11 +10,12 @@ namespace hibi {
 /// A scalar that a scene may let vary over the reference position X (m) and the time t (s). SI units.
 /// A constant costs no call.
 class Field {
-  public:
+ public:
     Field() = default;
     Field(double constant) : constant_(constant) {}
     /// text is what the scene wrote, kept so that the scene can be written back.
-    Field(std::function<double(const Vec3& X, double t)> function, bool in_space, bool in_time, std::string text)
+    Field(std::function<double(const Vec3& X, double t)> function, bool in_space, bool in_time,
+          std::string text)
         : function_(std::move(function)), text_(std::move(text)), in_space_(in_space), in_time_(in_time) {}
 
     double operator()(const Vec3& X, double t) const { return function_ ? function_(X, t) : constant_; }
@@ -23,7 +24,7 @@ class Field {
     bool is_constant() const { return !function_; }
     const std::string& text() const { return text_; }  ///< empty for a constant
 
-  private:
+ private:
     double constant_ = 0;
     std::function<double(const Vec3&, double)> function_;
     std::string text_;

@@ -10,18 +10,21 @@ void set_threads(int count);
 
 /// Elements per block. Block borders depend on n alone, so sums have the same bits on any number of threads.
 inline constexpr int parallel_block = 1024;
-/// Below this many elements waking a second thread costs more than it saves (measured on steps of 0.1 ms).
-inline constexpr int parallel_minimum = 4 * parallel_block;
+
+/// Calls run(body, b) for every b of [0, blocks), spread over the threads. The calling thread takes what no other
+/// has begun: it never waits for one that the machine keeps busy elsewhere.
+void run_blocks(int blocks, void (*run)(const void* body, int block), const void* body);
 
 /// Calls body(begin, end) for every block of [0, n), blocks spread over the threads.
 template <class Body>
 void parallel_for(int n, Body&& body) {
-    const int blocks = (n + parallel_block - 1) / parallel_block;
-#pragma omp parallel for schedule(static) num_threads(threads()) if (n >= parallel_minimum)
-    for (int b = 0; b < blocks; ++b) body(b * parallel_block, std::min(n, (b + 1) * parallel_block));
+    const auto block = [&](int b) { body(b * parallel_block, std::min(n, (b + 1) * parallel_block)); };
+    run_blocks((n + parallel_block - 1) / parallel_block,
+               [](const void* of, int b) { (*static_cast<const decltype(block)*>(of))(b); }, &block);
 }
 
-/// Sum of body(begin, end) over the same blocks, added in the order of the blocks. T needs += and T{} as zero.
+/// Sum of body(begin, end) over the same blocks, added in the order of the blocks. T needs += and T{} as
+/// zero.
 template <class T, class Body>
 T parallel_sum(int n, Body&& body) {
     const int blocks = (n + parallel_block - 1) / parallel_block;

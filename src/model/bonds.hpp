@@ -11,10 +11,10 @@ namespace hibi {
 struct Bonds {
     static constexpr double intact = std::numeric_limits<double>::infinity();
 
-    std::vector<int> first, second;   ///< particle indices
-    std::vector<double> rest_length;  ///< |X_second - X_first| (m)
-    std::vector<double> broken_at;    ///< time of failure (s), or `intact`
-    std::vector<int> start, bonds_of; ///< bonds of particle i: bonds_of[start[i] .. start[i+1])
+    std::vector<int> first, second;    ///< particle indices
+    std::vector<double> rest_length;   ///< |X_second - X_first| (m)
+    std::vector<double> broken_at;     ///< time of failure (s), or `intact`
+    std::vector<int> start, bonds_of;  ///< bonds of particle i: bonds_of[start[i] .. start[i+1])
 
     int count() const { return static_cast<int>(first.size()); }
     bool is_intact(int bond) const { return broken_at[bond] == intact; }

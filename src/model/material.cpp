@@ -6,7 +6,8 @@ double shear_modulus(const Material& m) { return m.youngs_modulus / (2 * (1 + m.
 
 double lame_lambda(const Material& m, Assumption assumption) {
     const double E = m.youngs_modulus, nu = m.poissons_ratio;
-    return assumption == Assumption::plane_stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
+    return assumption == Assumption::plane_stress ? E * nu / (1 - nu * nu)
+                                                  : E * nu / ((1 + nu) * (1 - 2 * nu));
 }
 
 }  // namespace hibi

@@ -8,18 +8,19 @@ namespace hibi {
 /// Random strength: each bond's limit is its material's limit times (-ln U)^(1/shape), U uniform in (0, 1);
 /// the material's limit is the scale parameter, reached by 63.2 % of the bonds. Weibull 1951.
 struct Weibull {
-    double shape = 10;       ///< the larger, the less scatter [-]
+    double shape = 10;  ///< the larger, the less scatter [-]
     std::uint64_t seed = 1;
 };
 
 struct Material {
     std::string name;
-    double density = 0;                     ///< (kg/m^3)
-    double youngs_modulus = 0;              ///< E (Pa)
-    double poissons_ratio = 0;              ///< nu [-]
-    std::optional<double> break_strain{};   ///< bond strain at which a bond fails [-]
-    std::optional<double> fracture_energy{};///< Gc (J/m^2); gives the limit strain where break_strain is absent
-    bool tension_only = false;              ///< a shortened bond never fails
+    double density = 0;                    ///< (kg/m^3)
+    double youngs_modulus = 0;             ///< E (Pa)
+    double poissons_ratio = 0;             ///< nu [-]
+    std::optional<double> break_strain{};  ///< bond strain at which a bond fails [-]
+    std::optional<double>
+        fracture_energy{};      ///< Gc (J/m^2); gives the limit strain where break_strain is absent
+    bool tension_only = false;  ///< a shortened bond never fails
     std::optional<Weibull> weibull{};
 
     bool can_break() const { return break_strain || fracture_energy; }

@@ -10,8 +10,8 @@ namespace {
 
 double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Do the closed segments ab and cd meet? Touching counts, to within 1e-9 of the longer one: a notch drawn along
-/// a row of particles must not depend on rounding.
+/// Do the closed segments ab and cd meet? Touching counts, to within 1e-9 of the longer one: a notch drawn
+/// along a row of particles must not depend on rounding.
 bool segments_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d) {
     const Vec<2> ab = b - a, cd = d - c, ac = c - a;
     const double scale = std::max(ab.norm(), cd.norm());

@@ -23,11 +23,12 @@ template <int Dim>
 struct Body {
     std::string name;
     Shape<Dim> shape;
-    double spacing = 0;             ///< l0 (m)
+    double spacing = 0;  ///< l0 (m)
     Lattice lattice{};
-    int material = 0;               ///< index into Model::materials
-    std::vector<int> bonded_to{};   ///< bodies with a lower index and the same spacing that bonds reach across to
-    int begin = 0, end = 0;         ///< its particles, once filled
+    int material = 0;  ///< index into Model::materials
+    std::vector<int>
+        bonded_to{};         ///< bodies with a lower index and the same spacing that bonds reach across to
+    int begin = 0, end = 0;  ///< its particles, once filled
 };
 
 /// Rotation of the particles as unknowns of their own: the thesis variant only, in the plane.
@@ -45,9 +46,9 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Body<Dim>> bodies;
     Assumption assumption = Assumption::plane_stress;
-    double thickness = 1;   ///< of a 2-D body (m)
-    double influence = 2.1; ///< r_e / l0 [-]
-    int bonds_cut = 0;      ///< removed by notches before the run
+    double thickness = 1;    ///< of a 2-D body (m)
+    double influence = 2.1;  ///< r_e / l0 [-]
+    int bonds_cut = 0;       ///< removed by notches before the run
 };
 
 /// Appends the particles of a body at rest, and sets its begin and end.
@@ -60,7 +61,8 @@ void add_body(Model<Dim>& model, Body<Dim> body);
 template <int Dim>
 std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notches);
 
-/// Pairs (first < second) of points nearer than `radius`, sorted. A grid of cells; linear in the number of points.
+/// Pairs (first < second) of points nearer than `radius`, sorted. A grid of cells; linear in the number of
+/// points.
 template <int Dim>
 std::vector<std::pair<int, int>> neighbours(const std::vector<Vec<Dim>>& points, double radius);
 

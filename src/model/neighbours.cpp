@@ -7,8 +7,8 @@
 
 namespace hibi {
 
-/// Points are sorted into square cells of size `radius`; each looks into the cells around its own. The cells lie
-/// in one sorted list, so empty space costs nothing.
+/// Points are sorted into square cells of size `radius`; each looks into the cells around its own. The cells
+/// lie in one sorted list, so empty space costs nothing.
 template <int Dim>
 std::vector<std::pair<int, int>> neighbours(const std::vector<Vec<Dim>>& points, double radius) {
     static_assert(Dim == 2, "the loop over cells below is plane");
@@ -35,7 +35,8 @@ std::vector<std::pair<int, int>> neighbours(const std::vector<Vec<Dim>>& points,
                 auto at = std::lower_bound(sorted.begin(), sorted.end(), std::pair{Cell{r, column - 1}, -1});
                 for (; at != sorted.end() && at->first <= Cell{r, column + 1}; ++at) {
                     const int j = at->second;
-                    if (j > i && (points[j] - points[i]).squaredNorm() < radius * radius) mine.push_back({i, j});
+                    if (j > i && (points[j] - points[i]).squaredNorm() < radius * radius)
+                        mine.push_back({i, j});
                 }
             }
         }

@@ -5,19 +5,17 @@
 
 namespace hibi::kernel {
 
-namespace {
-bool reproducible = false;
-}
-
-void require_reproducible_loops(bool required) { reproducible = required; }
-
 #if defined(__x86_64__)
 
-namespace v2 { extern const Loops loops; }
-namespace v3 { extern const Loops loops; }
-namespace v3_fused { extern const Loops loops; }
-namespace v4 { extern const Loops loops; }
-namespace v4_fused { extern const Loops loops; }
+namespace v2 {
+extern const Loops loops;
+}
+namespace v3 {
+extern const Loops loops;
+}
+namespace v4 {
+extern const Loops loops;
+}
 
 namespace {
 
@@ -34,17 +32,21 @@ int processor_level() {
 
 const Loops& loops() {
     switch (processor_level()) {
-        case 4: return reproducible ? v4::loops : v4_fused::loops;
-        case 3: return reproducible ? v3::loops : v3_fused::loops;
-        default: return v2::loops;  // has no fused multiply-add
+        case 4:
+            return v4::loops;
+        case 3:
+            return v3::loops;
+        default:
+            return v2::loops;
     }
 }
 
 #else
 
-namespace generic { extern const Loops loops; }
-namespace generic_fused { extern const Loops loops; }
-const Loops& loops() { return reproducible ? generic::loops : generic_fused::loops; }
+namespace generic {
+extern const Loops loops;
+}
+const Loops& loops() { return generic::loops; }
 
 #endif
 

@@ -7,9 +7,9 @@ namespace hibi::kernel {
 /// Particles are walked in chunks of this many consecutive ones, a lane each.
 inline constexpr int lanes = 8;
 
-// The numbers of a bond, seen from particle i towards j, by who needs them. Number is double where all particles of
-// a chunk have them alike, or an array with a lane each: all zero then where a lane has no such bond, or it is
-// broken.
+// The numbers of a bond, seen from particle i towards j, by who needs them. Number is double where all
+// particles of a chunk have them alike, or an array with a lane each: all zero then where a lane has no such
+// bond, or it is broken.
 
 template <class Number>
 struct Deforming {
@@ -51,16 +51,16 @@ using Lanes = double[lanes];
 /// first + offset + l.
 struct Record {
     std::int32_t offset = 0;
-    std::int32_t kind = 0;    ///< into kinds, if the chunk is uniform
+    std::int32_t kind = 0;  ///< into kinds, if the chunk is uniform
     bool operator==(const Record&) const = default;
 };
 
 /// What the particles of a uniform chunk have in common, and what differs from lane to lane in all others.
 struct Particle {
-    double two_mu = 0, lambda = 0;    ///< (Pa)
-    double volume = 0;                ///< V (m^3)
-    double trace = 0;                 ///< m_i [-]
-    double gx = 0, gy = 0;            ///< sum of s_ij / |r0|^2 r0 over alive bonds (m^2): zero deep inside
+    double two_mu = 0, lambda = 0;  ///< (Pa)
+    double volume = 0;              ///< V (m^3)
+    double trace = 0;               ///< m_i [-]
+    double gx = 0, gy = 0;          ///< sum of s_ij / |r0|^2 r0 over alive bonds (m^2): zero deep inside
     bool operator==(const Particle&) const = default;
 };
 
@@ -72,8 +72,8 @@ struct Chunk {
     std::int32_t neighbours = -1;          ///< if gathered: first of its neighbour lists, `lanes` per record
 };
 
-/// Everything the loops read and write. Arrays over particles begin at particle 0, and `lanes` further elements
-/// exist before and behind.
+/// Everything the loops read and write. Arrays over particles begin at particle 0, and `lanes` further
+/// elements exist before and behind.
 struct Arrays {
     const Chunk* chunks = nullptr;
     const Record* records = nullptr;
@@ -85,16 +85,16 @@ struct Arrays {
     const Limit<Lanes>* limit = nullptr;
     const std::int32_t* neighbours = nullptr;
     const double *two_mu = nullptr, *lambda = nullptr, *volume = nullptr, *trace = nullptr, *gx = nullptr,
-                 *gy = nullptr;                   ///< as of Particle
-    const double *ux = nullptr, *uy = nullptr;    ///< displacement (m)
-    double *diagonal = nullptr, *twist = nullptr; ///< P_i = -2 mu (R - I) + lambda D R (Pa)
-    double* force = nullptr;                      ///< x, y of each particle in turn (N); no room around
+                 *gy = nullptr;                    ///< as of Particle
+    const double *ux = nullptr, *uy = nullptr;     ///< displacement (m)
+    double *diagonal = nullptr, *twist = nullptr;  ///< P_i = -2 mu (R - I) + lambda D R (Pa)
+    double* force = nullptr;                       ///< x, y of each particle in turn (N); no room around
     int particles = 0;
 };
 
 /// The loops for one kind of processor, over chunks [begin, end).
 struct Loops {
-    const char* level;  ///< "x86-64-v3"; "fused" behind it where products are added without rounding in between
+    const char* level;  ///< "x86-64-v3"
     /// Rotation and dilatation of every particle, as `diagonal` and `twist`. Returns whether some bond is
     /// beyond its limits; the first does not look.
     bool (*deform)(const Arrays&, int begin, int end);
@@ -104,12 +104,8 @@ struct Loops {
     double (*energy)(const Arrays&, int begin, int end);
 };
 
-/// The loops for the best level this processor has. Environment variable HIBI_CPU_LEVEL = v2, v3 or v4 asks for
-/// a lower one.
+/// The loops for the best level this processor has; all give the same bits. Environment variable
+/// HIBI_CPU_LEVEL = v2 or v3 asks for a lower one.
 const Loops& loops();
-
-/// From now on those that give the same bits on every processor. Without, the last digits may differ: products
-/// are added without rounding in between where the processor can.
-void require_reproducible_loops(bool required);
 
 }  // namespace hibi::kernel

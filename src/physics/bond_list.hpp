@@ -8,9 +8,9 @@
 
 namespace hibi {
 
-/// The bonds seen from every particle, each bond twice: the form that loops over particles walk. A loop over it
-/// writes only to its own particle, so it gives the same bits on any number of threads. Slots of particle i:
-/// start[i] .. start[i+1], in the order of Bonds::bonds_of.
+/// The bonds seen from every particle, each bond twice: the form that loops over particles walk. A loop over
+/// it writes only to its own particle, so it gives the same bits on any number of threads. Slots of particle
+/// i: start[i] .. start[i+1], in the order of Bonds::bonds_of.
 template <int Dim>
 struct BondList {
     std::vector<int> start, neighbour, bond;

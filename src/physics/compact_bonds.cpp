@@ -67,9 +67,11 @@ CompactBonds::CompactBonds(const Model<2>& model, const BondWeights& s, const st
         for (std::vector<Slot>& of_lane : slots) of_lane.clear();
         for (int i = first; i < last; ++i) {
             for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k)
-                if (const int b = bonds.bonds_of[k]; bonds.is_intact(b)) slots[i - first].push_back(slot(b, i));
+                if (const int b = bonds.bonds_of[k]; bonds.is_intact(b))
+                    slots[i - first].push_back(slot(b, i));
         }
-        if (last < first + lanes || !add_uniform(slots, first, chunks_[c])) add_own_lanes(slots, first, chunks_[c]);
+        if (last < first + lanes || !add_uniform(slots, first, chunks_[c]))
+            add_own_lanes(slots, first, chunks_[c]);
     }
     known_kinds_.clear();
 }

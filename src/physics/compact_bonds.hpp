@@ -10,8 +10,9 @@
 
 namespace hibi {
 
-/// The bonds of a moment-matched model in the form the fast loops walk (bond_kernel.hpp), each bond from both its
-/// ends. Where consecutive particles have the same bonds, as in the rows of a lattice, these are stored once.
+/// The bonds of a moment-matched model in the form the fast loops walk (bond_kernel.hpp), each bond from both
+/// its ends. Where consecutive particles have the same bonds, as in the rows of a lattice, these are stored
+/// once.
 class CompactBonds {
  public:
     /// `lambda`: per particle (Pa). Without limits nothing is watched.
@@ -68,9 +69,8 @@ class CompactBonds {
     int record_of(const kernel::Chunk& chunk, int i, int j) const;
     kernel::Particle particle(int i) const;
     int neighbour(const kernel::Chunk& chunk, int r, int i) const {
-        return chunk.neighbours < 0
-                   ? i + records_[chunk.record + r].offset
-                   : neighbours_[chunk.neighbours + r * kernel::lanes + i % kernel::lanes];
+        return chunk.neighbours < 0 ? i + records_[chunk.record + r].offset
+                                    : neighbours_[chunk.neighbours + r * kernel::lanes + i % kernel::lanes];
     }
 
     std::vector<kernel::Chunk> chunks_;

@@ -23,10 +23,8 @@ constexpr std::array calibrated_nu{0.0, 0.3, 0.45, 0.6, 0.7, 0.82};  // nu'
 constexpr std::array calibrated_influence{1.5, 1.8, 2.1, 2.5, 3.1};
 constexpr double calibrated_constant[calibrated_nu.size()][calibrated_influence.size()]{
     {0.680, 0.692, 0.696, 0.704, 0.692},  // nu' = 0
-    {0.530, 0.525, 0.629, 0.656, 0.666},
-    {0.451, 0.461, 0.577, 0.613, 0.629},
-    {0.468, 0.419, 0.504, 0.556, 0.583},
-    {0.402, 0.420, 0.438, 0.504, 0.530},
+    {0.530, 0.525, 0.629, 0.656, 0.666}, {0.451, 0.461, 0.577, 0.613, 0.629},
+    {0.468, 0.419, 0.504, 0.556, 0.583}, {0.402, 0.420, 0.438, 0.504, 0.530},
     {0.344, 0.343, 0.363, 0.415, 0.438}};
 
 double plane_stress_nu(const Material& m, Assumption assumption) {

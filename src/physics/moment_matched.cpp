@@ -26,8 +26,8 @@ struct Polar {
     }
 };
 
-/// From the trace and the antisymmetric part A21 - A12 of A - M, with M its value at rest and m = tr M: without
-/// cancellation at small strain, and with one division, all in the order of the loops.
+/// From the trace and the antisymmetric part A21 - A12 of A - M, with M its value at rest and m = tr M:
+/// without cancellation at small strain, and with one division, all in the order of the loops.
 Polar polar(double trace, double twist, double m) {
     const double along = m + trace;
     const double q = std::sqrt(along * along + twist * twist);
@@ -103,7 +103,9 @@ class MomentMatched final : public ElasticLaw<2> {
         return state;
     }
 
-    void remove(const Bonds& bonds, int bond) override { bonds_.remove(bonds.first[bond], bonds.second[bond]); }
+    void remove(const Bonds& bonds, int bond) override {
+        bonds_.remove(bonds.first[bond], bonds.second[bond]);
+    }
 
  private:
     /// Of a particle at the border of a block: blocks hold whole chunks.

@@ -142,13 +142,17 @@ void Simulation<Dim>::list_stages() {
           [this] { kick_and_drift(); });
     if (!driven_.empty()) stage("prescribed motion", [this] { prescribe_motion(); });
     if (!applied_.empty()) stage("applied loads", [this] { update_loads(time_step_); });
-    std::string deform = model_.spin ? "dilatation (thesis variant)" : "rotation and dilatation (moment-matched)";
+    std::string deform =
+        model_.spin ? "dilatation (thesis variant)" : "rotation and dilatation (moment-matched)";
     if (can_break()) deform += ", watch limits";
     stage(deform.c_str(), [this] { suspects_ = law_->deform(model_); });
     std::string forces = model_.spin ? "bond forces and torques" : "bond forces";
     if (physics_.gravity) forces += ", gravity";
     stage((forces + ", half kick").c_str(), [this] { sum_forces_and_kick(); });
-    if (can_break()) stage("judge and break bonds", [this] { if (!suspects_.empty()) judge_and_break(); });
+    if (can_break())
+        stage("judge and break bonds", [this] {
+            if (!suspects_.empty()) judge_and_break();
+        });
 }
 
 template <int Dim>
@@ -286,8 +290,9 @@ void Simulation<Dim>::list_applied_forces() {
             applied_.push_back({physics_.loads[l].particles[k], l, k});
     std::ranges::stable_sort(applied_, {}, &Applied::particle);
     for (int b = 0; b <= blocks; ++b)
-        applied_start_.push_back(static_cast<int>(
-            std::ranges::lower_bound(applied_, b * parallel_block, {}, &Applied::particle) - applied_.begin()));
+        applied_start_.push_back(
+            static_cast<int>(std::ranges::lower_bound(applied_, b * parallel_block, {}, &Applied::particle) -
+                             applied_.begin()));
     kick_sums_.resize(blocks);
 }
 
@@ -340,7 +345,8 @@ void Simulation<Dim>::judge_and_break() {
              b < bonds.count() && bonds.first[b] < end; ++b) {
             if (!bonds.is_intact(b)) continue;
             const Vec<Dim>& r0 = model_.bond_vectors[b];
-            const Vec<Dim> du = particles.displacement[bonds.second[b]] - particles.displacement[bonds.first[b]];
+            const Vec<Dim> du =
+                particles.displacement[bonds.second[b]] - particles.displacement[bonds.first[b]];
             const double growth = 2 * r0.dot(du) + du.squaredNorm(), square = r0.squaredNorm();
             if (!(growth > limits_.upper[b] * square || growth < limits_.lower[b] * square)) continue;
             just_broken_.push_back(b);
@@ -487,9 +493,8 @@ double Simulation<Dim>::closest_to_breaking() const {
     for (int b = 0; b < bonds.count(); ++b) {
         if (!bonds.is_intact(b)) continue;
         const int i = bonds.first[b], j = bonds.second[b];
-        const double strain =
-            bond_strain<Dim>(model_.bond_vectors[b],
-                             model_.particles.displacement[j] - model_.particles.displacement[i]);
+        const double strain = bond_strain<Dim>(
+            model_.bond_vectors[b], model_.particles.displacement[j] - model_.particles.displacement[i]);
         const double bound = strain > 0 ? limits_.upper[b] : limits_.lower[b];
         if (std::isfinite(bound)) closest = std::max(closest, strain / (std::sqrt(1 + bound) - 1));
     }

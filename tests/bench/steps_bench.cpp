@@ -1,5 +1,6 @@
-// How fast the solver steps: bond-updates per second, one undirected bond and one whole step each, of a free plate
-// with r_e / l0 as given. Run build/release/tests/bench_steps; tests/bench/README.md says how to read it.
+// How fast the solver steps: bond-updates per second, one undirected bond and one whole step each, of a free
+// plate with r_e / l0 as given. Run build/release/tests/bench_steps; tests/bench/README.md says how to read
+// it.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -32,7 +33,8 @@ Simulation<2>& plate_in_motion(int side, double influence, What what) {
     add_body(model, body);
     connect<2>(model, {});
     for (int i = 0; i < model.particles.count(); ++i)
-        for (int a = 0; a < 2; ++a) model.particles.velocity[i][a] = 0.02 * (unit_random(mix_bits(2 * i + a)) - 0.5);
+        for (int a = 0; a < 2; ++a)
+            model.particles.velocity[i][a] = 0.02 * (unit_random(mix_bits(2 * i + a)) - 0.5);
     Physics physics;
     if (what == What::damped_and_heavy) {
         physics.gravity = Gravity{Vec3(0, -9.81, 0)};

@@ -97,8 +97,9 @@ INSTANTIATE_TEST_SUITE_P(Slow, ConstantOfTheStrip,
                          testing::Combine(testing::Values(1.5, 1.8, 2.1, 2.5, 3.1),
                                           testing::Values(0.0, 0.3, 0.45, 0.6, 0.7, 0.82)));
 
-// The more bonds cross a crack, the less the load depends on its direction. Between the rows and the diagonals
-// nothing was calibrated: what 15 and 30 degrees are off by is a figure to be known, not one to be proud of.
+// The more bonds cross a crack, the less the load depends on its direction. Between the rows and the
+// diagonals nothing was calibrated: what 15 and 30 degrees are off by is a figure to be known, not one to be
+// proud of.
 TEST(SlowStrip, FailsAtTheLoadOfFractureMechanicsOverFourfoldRefinement) {
     for (const double influence : {2.1, 3.1}) {
         for (const double angle : {0.0, 45.0, 15.0, 30.0}) {
@@ -117,8 +118,7 @@ TEST(SlowStrip, FailsAtTheLoadOfFractureMechanicsOverFourfoldRefinement) {
 TEST(SlowStrip, ACentreCrackFailsAtTheSameIntensity) {
     for (const double influence : {2.1, 3.1}) {
         for (const double angle : {0.0, 45.0}) {
-            const Failure f =
-                failure({.across = 48, .angle = angle, .influence = influence, .centre = true});
+            const Failure f = failure({.across = 48, .angle = angle, .influence = influence, .centre = true});
             fmt::print("r_e {}, {:2} degrees, centre crack: K at failure / K_Ic = {:.3f}\n", influence, angle,
                        f.mean);
             // Half of it is 7 spacings long: a tip half a spacing further on is 3.5 % in K.
@@ -127,8 +127,8 @@ TEST(SlowStrip, ACentreCrackFailsAtTheSameIntensity) {
     }
 }
 
-/// Angle to its notch of a crack that has run on by nine spacings (degrees): the line that fits the broken bonds
-/// best.
+/// Angle to its notch of a crack that has run on by nine spacings (degrees): the line that fits the broken
+/// bonds best.
 double path_angle(const StripCase& c) {
     const Material m{.name = "unit", .youngs_modulus = 1, .poissons_ratio = c.nu, .fracture_energy = 1};
     CrackGrowth growth(c, 9.6 + 2 * c.influence, 1.6 + 2 * c.influence, 6 + 2 * c.influence);
@@ -153,8 +153,8 @@ TEST(SlowStrip, RowsLeadCracksAstrayAndJitterSetsThemFree) {
         for (const double jitter : {0.0, 0.1, 0.2, 0.3}) {
             double sum = 0;
             for (const std::uint64_t seed : {1, 2, 3})
-                sum += std::pow(
-                    path_angle({.across = 36, .angle = angle, .jitter = jitter, .seed = seed}), 2);
+                sum +=
+                    std::pow(path_angle({.across = 36, .angle = angle, .jitter = jitter, .seed = seed}), 2);
             const double deviation = std::sqrt(sum / 3);
             fmt::print("  jitter {} {:.1f}", jitter, deviation);
             if (jitter == 0) {

@@ -47,8 +47,9 @@ TEST_P(TangentAt, IsTheDerivativeOfTheForcesWithBrokenBonds) {
         EXPECT_LT((y - K.col(column)).cwiseAbs().maxCoeff(), 1e-14 * scale) << column;
     }
 }
-INSTANTIATE_TEST_SUITE_P(PoissonsRatio, TangentAt, testing::Values(0, 0.3, 0.49),
-                         [](const auto& ratio) { return std::to_string(static_cast<int>(100 * ratio.param)); });
+INSTANTIATE_TEST_SUITE_P(PoissonsRatio, TangentAt, testing::Values(0, 0.3, 0.49), [](const auto& ratio) {
+    return std::to_string(static_cast<int>(100 * ratio.param));
+});
 
 // The pattern is found once: what breaks or moves later must find its place in it.
 TEST(Tangent, UpdatedAfterBreaksItIsThatOfTheDamagedModel) {

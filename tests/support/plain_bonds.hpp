@@ -1,13 +1,14 @@
 #pragma once
-#include "physics/elastic.hpp"
 #include "physics/dilatation.hpp"
+#include "physics/elastic.hpp"
 #include "physics/weights.hpp"
 
 namespace hibi::test {
 
-/// The judge of the fast loops: forces of the moment-matched law by one plain loop over the bonds of each particle,
-/// straight from the model and in the order that the fast loops promise to keep.
-///     f_i = P_i sum_j s_ij r0 / |r0|^2 + sum_j [ spring du + s_ji / |r0|^2 P_j r0 ],  P = -2 mu (R - I) + lambda D R
+/// The judge of the fast loops: forces of the moment-matched law by one plain loop over the bonds of each
+/// particle, straight from the model and in the order that the fast loops promise to keep.
+///     f_i = P_i sum_j s_ij r0 / |r0|^2 + sum_j [ spring du + s_ji / |r0|^2 P_j r0 ],  P = -2 mu (R - I) +
+///     lambda D R
 inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const BondWeights& s) {
     const Particles<2>& particles = model.particles;
     const Bonds& bonds = model.bonds;
@@ -44,8 +45,8 @@ inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const BondWeights
         if (q == 0) continue;
         const double sum = along < 0 ? 1 : q + along, high = q + m, reciprocal = 1 / (q * sum * high);
         const double sine = twist * (reciprocal * (sum * high));
-        const double cosine_less_one = along < 0 ? (along - q) * (reciprocal * (sum * high))
-                                                 : -twist * sine * (reciprocal * (q * high));
+        const double cosine_less_one =
+            along < 0 ? (along - q) * (reciprocal * (sum * high)) : -twist * sine * (reciprocal * (q * high));
         const double D = (trace * (2 * m + trace) + twist * twist) * (reciprocal * (q * sum));
         diagonal[i] = lambda[i] * D * (1 + cosine_less_one) - two_mu(i) * cosine_less_one;
         twisted[i] = lambda[i] * D * sine - two_mu(i) * sine;

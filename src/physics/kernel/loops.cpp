@@ -1,6 +1,6 @@
-// The loops over the bonds, compiled once per level of the processor: HIBI_LEVEL is the namespace, HIBI_LEVEL_NAME
-// what it is called. Nothing but std::experimental::simd and plain pointers may be used here: an inline function
-// shared with the rest of the program could be the one that the linker keeps, and needs this level's processor.
+// The loops over the bonds, compiled once per level of the processor: HIBI_LEVEL is the namespace. Nothing
+// but std::experimental::simd and plain pointers may be used here: an inline function shared with the rest of
+// the program could be the one that the linker keeps, and needs this level's processor.
 #include <experimental/simd>
 
 #include "physics/bond_kernel.hpp"
@@ -14,6 +14,8 @@ using Register = stdx::native_simd<double>;
 constexpr int width = static_cast<int>(Register::size());
 constexpr int registers = lanes / width;
 static_assert(registers * width == lanes);
+#define HIBI_NAME_OF(level) #level
+#define HIBI_NAME(level) HIBI_NAME_OF(level)
 #define HIBI_INLINE [[gnu::always_inline]] inline
 
 /// One number for each particle of a chunk.
@@ -153,8 +155,8 @@ HIBI_INLINE Deformation deformation(const Arrays& a, int c, Some& beyond) {
     return h;
 }
 
-/// Polar rotation as R - I, and dilatation D = tr(R^T A) - m, without cancellation at small strain and with one
-/// division: q - m = (q^2 - m^2) / (q + m), and along - q likewise unless along < 0.
+/// Polar rotation as R - I, and dilatation D = tr(R^T A) - m, without cancellation at small strain and with
+/// one division: q - m = (q^2 - m^2) / (q + m), and along - q likewise unless along < 0.
 struct Polar {
     Chunkful cosine_less_one, sine, dilatation;
     HIBI_INLINE Polar(const Deformation& h, const Chunkful& m) {
@@ -249,6 +251,6 @@ double energy(const Arrays& a, int begin, int end) {
 }  // namespace
 
 extern const Loops loops;
-const Loops loops{HIBI_LEVEL_NAME, deform<false>, deform<true>, sum_forces, energy};
+const Loops loops{HIBI_NAME(HIBI_LEVEL), deform<false>, deform<true>, sum_forces, energy};
 
 }  // namespace hibi::kernel::HIBI_LEVEL
