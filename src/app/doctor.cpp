@@ -15,6 +15,7 @@
 #include "base/units.hpp"
 #include "film/encoder.hpp"
 #include "image/text.hpp"
+#include "physics/bond_kernel.hpp"
 #include "render/renderer.hpp"
 
 namespace hibi {
@@ -74,6 +75,7 @@ std::vector<Finding> examine_all() {
     findings.push_back(
         {"version", true, true, fmt::format("hibi {}, compiler {}", HIBI_VERSION, __VERSION__)});
     findings.push_back({"threads", true, true, std::to_string(threads())});
+    findings.push_back({"processor", true, true, fmt::format("loops for level {}", kernel::loops().level)});
     findings.push_back(examine("renderer osmesa", true, "install libosmesa6",
                                [] { return look_at_renderer(GlBackend::osmesa); }));
     findings.push_back(examine("renderer egl", false, "install libegl1 and libgl1-mesa-dri",

@@ -179,6 +179,9 @@ float single(double value) {
     return static_cast<float>(std::clamp(value, -largest, largest));
 }
 
+/// (L - L0) / L0 from (L^2 - L0^2) / L0^2.
+double strain(double growth) { return growth / (1 + std::sqrt(1 + growth)); }
+
 }  // namespace
 
 template <int Dim>
@@ -203,26 +206,32 @@ Snapshot take_snapshot(const Simulation<Dim>& simulation) {
     s.energy.resize(n);
     s.stress.resize(n);
     parallel_for(n, [&](int begin, int end) {
+        const std::vector<LocalState<Dim>> locals = simulation.local(begin, end);
         for (int i = begin; i < end; ++i) {
             s.displacement[i] = to_3d<Dim>(particles.displacement[i]);
             s.velocity[i] = to_3d<Dim>(particles.velocity[i]);
-            double largest = 0;
+            // By (L^2 - L0^2) / L0^2, which needs no root, the longest and the shortest; then the larger
+            // strain of the two.
+            double longest = 0, shortest = 0;
             int broken = 0;
             const int count = bonds.start[i + 1] - bonds.start[i];
             for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
-                const int b = bonds.bonds_of[k], j = bonds.other(b, i);
+                const int b = bonds.bonds_of[k];
                 if (!bonds.is_intact(b)) {
                     ++broken;
                     continue;
                 }
-                const double strain =
-                    bond_strain<Dim>(particles.reference_position[j] - particles.reference_position[i],
-                                     particles.displacement[j] - particles.displacement[i]);
-                if (std::abs(strain) > std::abs(largest)) largest = strain;
+                const Vec<Dim>& r0 = model.bond_vectors[b];
+                const Vec<Dim> du =
+                    particles.displacement[bonds.second[b]] - particles.displacement[bonds.first[b]];
+                const double growth = (2 * r0.dot(du) + du.squaredNorm()) / r0.squaredNorm();
+                longest = std::max(longest, growth);
+                shortest = std::min(shortest, growth);
             }
-            s.bond_strain[i] = single(largest);
+            const double tension = strain(longest), compression = strain(shortest);
+            s.bond_strain[i] = single(tension >= -compression ? tension : compression);
             s.damage[i] = count > 0 ? static_cast<float>(broken) / static_cast<float>(count) : 0;
-            const LocalState<Dim> local = simulation.local(i);
+            const LocalState<Dim>& local = locals[i - begin];
             s.energy[i] = single(local.energy);
             Mat<3> stress = Mat<3>::Zero();
             stress.template topLeftCorner<Dim, Dim>() = local.stress;

@@ -16,6 +16,10 @@ bool segments_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<
     const Vec<2> ab = b - a, cd = d - c, ac = c - a;
     const double scale = std::max(ab.norm(), cd.norm());
     const double tolerance = 1e-9 * scale;
+    // Most are far apart.
+    if ((a.cwiseMax(b).array() < c.cwiseMin(d).array() - tolerance).any() ||
+        (c.cwiseMax(d).array() < a.cwiseMin(b).array() - tolerance).any())
+        return false;
     const double turn = cross(ab, cd);
     if (std::abs(turn) > 1e-12 * ab.norm() * cd.norm()) {
         const double s = cross(ac, cd) / turn, t = cross(ac, ab) / turn;  // a + s ab = c + t cd
@@ -158,6 +162,9 @@ std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notch
     bonds = {};
     model.bond_vectors = {};
     BondKinds kinds(model.bond_vectors);
+    for (std::vector<int>* field : {&bonds.first, &bonds.second, &model.bond_vectors.kind})
+        field->reserve(pairs.size());
+    bonds.rest_length.reserve(pairs.size());
     for (const auto& [i, j] : pairs) {
         bonds.first.push_back(i);
         bonds.second.push_back(j);

@@ -92,6 +92,13 @@ struct Arrays {
     int particles = 0;
 };
 
+/// What one particle feels.
+struct State {
+    double energy = 0;              ///< (J)
+    double dilatation = 0;          ///< D_i [-]
+    double xx = 0, yy = 0, xy = 0;  ///< Cauchy stress of the surviving bonds (Pa), current frame
+};
+
 /// The loops for one kind of processor, over chunks [begin, end).
 struct Loops {
     const char* level;  ///< "x86-64-v3"
@@ -102,6 +109,8 @@ struct Loops {
     void (*sum_forces)(const Arrays&, int begin, int end);
     /// Elastic energy (J), added in the order of the particles.
     double (*energy)(const Arrays&, int begin, int end);
+    /// One state for every particle of the chunks, the last chunk's missing ones included.
+    void (*states)(const Arrays&, int begin, int end, State* to);
 };
 
 /// The loops for the best level this processor has; all give the same bits. Environment variable

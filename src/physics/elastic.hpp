@@ -51,6 +51,8 @@ class ElasticLaw {
     void forces(Model<Dim>& model);
 
     virtual LocalState<Dim> local(const Model<Dim>& model, int particle) const = 0;
+    /// Of particles [begin, end), a block of parallel_for's; for displacements that it has been told of.
+    virtual std::vector<LocalState<Dim>> local(const Model<Dim>& model, int begin, int end) const = 0;
     /// Sum of the particles' energies (J).
     virtual double energy(const Model<Dim>& model) const = 0;
     /// The bond carries nothing from now on; the survivors keep their weights.

@@ -103,6 +103,18 @@ class MomentMatched final : public ElasticLaw<2> {
         return state;
     }
 
+    std::vector<LocalState<2>> local(const Model<2>&, int begin, int end) const override {
+        std::vector<kernel::State> states((chunk(end) - chunk(begin)) * kernel::lanes);
+        loops_.states(bonds_.arrays(nullptr), chunk(begin), chunk(end), states.data());
+        std::vector<LocalState<2>> local(end - begin);
+        for (int k = 0; k < end - begin; ++k) {
+            const kernel::State& s = states[k];
+            local[k] = {.energy = s.energy, .dilatation = s.dilatation};
+            local[k].stress << s.xx, s.xy, s.xy, s.yy;
+        }
+        return local;
+    }
+
     void remove(const Bonds& bonds, int bond) override {
         bonds_.remove(bonds.first[bond], bonds.second[bond]);
     }

@@ -71,14 +71,11 @@ Simulation<Dim>::Simulation(Model<Dim> model, Physics physics)
         return;
     }
     list_stages();
+    prepare_blocks();
     if (model_.spin) turn_with_neighbours();
     update_loads(0);
     sum_forces();
-    for (int i = 0; i < n; ++i) {
-        kinetic_ += particles.mass[i] * particles.velocity[i].squaredNorm() / 2;
-        if (model_.spin)
-            kinetic_ += model_.spin->inertia[i] * model_.spin->velocity[i] * model_.spin->velocity[i] / 2;
-    }
+    kinetic_ = parallel_sum<double>(n, [&](int begin, int end) { return kinetic_energy_of(begin, end); });
     work_ = kinetic_ + law_->energy(model_);  // what is there at the start was put in
 }
 
@@ -170,36 +167,56 @@ void Simulation<Dim>::explicit_step() {
     if (!std::isfinite(kinetic_)) report_failure();
 }
 
-/// Half a step of dv/dt = a - c v by the midpoint rule; what damping takes out is then m (c dt / 8) |v +
-/// v_new|^2 to the last digit.
+/// Half a step of dv/dt = a - c v by the midpoint rule. Returns what damping takes out, which is then m (c dt
+/// / 8) |v + v_new|^2 to the last digit.
 template <int Dim>
-typename Simulation<Dim>::KickSums Simulation<Dim>::kick(int begin, int end) {
+double Simulation<Dim>::kick(int begin, int end) {
     Particles<Dim>& particles = model_.particles;
-    Spin* spin = model_.spin ? &*model_.spin : nullptr;
     const double half = time_step_ / 2, g = damping_rate_ * time_step_ / 4;
-    KickSums sums;
-    for (int i = begin; i < end; ++i) {
-        Vec<Dim>& v = particles.velocity[i];
-        const Vec<Dim> push = half * inverse_mass_[i].cwiseProduct(particles.force[i]);
-        if (g == 0) {
-            v += push;
-        } else {
+    double damped = 0;
+    const auto kick_all = [&](auto&& inverse_mass) {
+        for (int i = begin; i < end; ++i) {
+            Vec<Dim>& v = particles.velocity[i];
+            const Vec<Dim> push = half * inverse_mass(i).cwiseProduct(particles.force[i]);
+            if (g == 0) {
+                v += push;
+                continue;
+            }
             const Vec<Dim> old = v;
             v = ((1 - g) * v + push) / (1 + g);
             for (int a = 0; a < Dim; ++a)  // driven components are overwritten later, and are not damped
-                if (inverse_mass_[i][a] > 0)
-                    sums.damped += particles.mass[i] * g / 2 * (old[a] + v[a]) * (old[a] + v[a]);
+                if (inverse_mass(i)[a] > 0)
+                    damped += particles.mass[i] * g / 2 * (old[a] + v[a]) * (old[a] + v[a]);
         }
-        sums.kinetic += particles.mass[i] / 2 * v.squaredNorm();
-        if (spin) {
-            double& w = spin->velocity[i];
+    };
+    // A large body is moved as fast as memory allows: what its particles have in common is not read.
+    if (const double same = inverse_mass_of_block_[begin / parallel_block]; same > 0)
+        kick_all([all = Vec<Dim>::Constant(same).eval()](int) -> const Vec<Dim>& { return all; });
+    else
+        kick_all([&](int i) -> const Vec<Dim>& { return inverse_mass_[i]; });
+    if (model_.spin) {
+        Spin& spin = *model_.spin;
+        for (int i = begin; i < end; ++i) {
+            double& w = spin.velocity[i];
             const double old = w;
-            w = ((1 - g) * w + half * inverse_inertia_[i] * spin->torque[i]) / (1 + g);
-            sums.damped += spin->inertia[i] * g / 2 * (old + w) * (old + w);
-            sums.kinetic += spin->inertia[i] / 2 * w * w;
+            w = ((1 - g) * w + half * inverse_inertia_[i] * spin.torque[i]) / (1 + g);
+            damped += spin.inertia[i] * g / 2 * (old + w) * (old + w);
         }
     }
-    return sums;
+    return damped;
+}
+
+template <int Dim>
+double Simulation<Dim>::kinetic_energy_of(int begin, int end) const {
+    const Particles<Dim>& particles = model_.particles;
+    const bool alike = inverse_mass_of_block_[begin / parallel_block] > 0;
+    double sum = 0;
+    for (int i = begin; i < end; ++i)
+        sum += particles.mass[alike ? begin : i] / 2 * particles.velocity[i].squaredNorm();
+    if (model_.spin)
+        for (int i = begin; i < end; ++i)
+            sum += model_.spin->inertia[i] / 2 * model_.spin->velocity[i] * model_.spin->velocity[i];
+    return sum;
 }
 
 template <int Dim>
@@ -208,13 +225,13 @@ void Simulation<Dim>::kick_and_drift() {
     for (Driven& d : driven_) d.old_force = particles.force[d.particle][d.axis];
     time_ = static_cast<double>(steps_) * time_step_;
     parallel_for(particles.count(), [&](int begin, int end) {
-        kick_sums_[begin / parallel_block] = kick(begin, end);
+        damped_in_block_[begin / parallel_block] = kick(begin, end);
         for (int i = begin; i < end; ++i) particles.displacement[i] += time_step_ * particles.velocity[i];
         if (model_.spin)
             for (int i = begin; i < end; ++i) model_.spin->angle[i] += time_step_ * model_.spin->velocity[i];
         law_->displaced(model_, begin, end);
     });
-    for (const KickSums& sums : kick_sums_) damped_ += sums.damped;
+    for (const double damped : damped_in_block_) damped_ += damped;
 }
 
 /// Overwrites what kick and drift did to driven components. Until finish_motion their velocity is the mean
@@ -293,7 +310,20 @@ void Simulation<Dim>::list_applied_forces() {
         applied_start_.push_back(
             static_cast<int>(std::ranges::lower_bound(applied_, b * parallel_block, {}, &Applied::particle) -
                              applied_.begin()));
-    kick_sums_.resize(blocks);
+}
+
+template <int Dim>
+void Simulation<Dim>::prepare_blocks() {
+    const int n = model_.particles.count(), blocks = (n + parallel_block - 1) / parallel_block;
+    damped_in_block_.resize(blocks);
+    kinetic_in_block_.resize(blocks);
+    for (int b = 0; b < blocks; ++b) {
+        const auto first = inverse_mass_.begin() + b * parallel_block;
+        const auto last = inverse_mass_.begin() + std::min(n, (b + 1) * parallel_block);
+        const Vec<Dim> same = Vec<Dim>::Constant(first->x());
+        const bool alike = std::all_of(first, last, [&](const Vec<Dim>& inverse) { return inverse == same; });
+        inverse_mass_of_block_.push_back(alike ? same.x() : 0);
+    }
 }
 
 /// And gravity, to the particles of a block.
@@ -320,13 +350,12 @@ template <int Dim>
 void Simulation<Dim>::sum_forces_and_kick() {
     law_->sum_forces(model_, [&](int begin, int end) {
         add_applied_forces(begin, end);
-        kick_sums_[begin / parallel_block] = kick(begin, end);
+        damped_in_block_[begin / parallel_block] = kick(begin, end);
+        kinetic_in_block_[begin / parallel_block] = kinetic_energy_of(begin, end);
     });
     kinetic_ = 0;
-    for (const KickSums& sums : kick_sums_) {
-        kinetic_ += sums.kinetic;
-        damped_ += sums.damped;
-    }
+    for (const double kinetic : kinetic_in_block_) kinetic_ += kinetic;
+    for (const double damped : damped_in_block_) damped_ += damped;
     finish_motion();
 }
 

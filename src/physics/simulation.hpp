@@ -73,7 +73,8 @@ class Simulation {
     double kinetic_energy() const { return kinetic_; }
     Vec<Dim> momentum() const;
     LoadReading read(int load) const;
-    LocalState<Dim> local(int particle) const { return law_->local(model_, particle); }
+    /// Of particles [begin, end), a block of parallel_for's.
+    std::vector<LocalState<Dim>> local(int begin, int end) const { return law_->local(model_, begin, end); }
     /// Particles held or driven in some direction.
     const std::vector<std::array<bool, 3>>& held() const { return held_; }
 
@@ -124,16 +125,13 @@ class Simulation {
         std::function<void()> run;
         double seconds = 0;  ///< spent in it so far, where the run is profiled
     };
-    /// Of a block of particles, in kicks (J).
-    struct KickSums {
-        double kinetic = 0, damped = 0;
-    };
-
     void list_stages();
     void explicit_step();
     void choose_time_step(bool can_break);
     void turn_with_neighbours();
-    KickSums kick(int begin, int end);
+    void prepare_blocks();
+    double kick(int begin, int end);
+    double kinetic_energy_of(int begin, int end) const;
     void kick_and_drift();
     void prescribe_motion();
     void list_applied_forces();
@@ -183,7 +181,8 @@ class Simulation {
     };
     std::vector<Applied> applied_;
     std::vector<int> applied_start_;
-    std::vector<KickSums> kick_sums_;  ///< per block
+    std::vector<double> damped_in_block_, kinetic_in_block_;  ///< in the last kick (J)
+    std::vector<double> inverse_mass_of_block_;  ///< where all its components have the same; else 0 (1/kg)
     std::vector<Stage> stages_;
     bool profiles_ = false;
     double stable_time_step_ = 0, time_step_ = 0, damping_rate_ = 0;

@@ -99,6 +99,12 @@ class ThesisLaw final : public ElasticLaw<2> {
         return state;
     }
 
+    std::vector<LocalState<2>> local(const Model<2>& model, int begin, int end) const override {
+        std::vector<LocalState<2>> states;
+        for (int i = begin; i < end; ++i) states.push_back(local(model, i));
+        return states;
+    }
+
     void remove(const Bonds& bonds, int bond) override { list_.remove(bonds, bond); }
 
  private:

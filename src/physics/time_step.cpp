@@ -1,5 +1,7 @@
 #include "physics/time_step.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
@@ -13,12 +15,75 @@ namespace hibi {
 
 namespace {
 
-/// The estimate rises from below: it is taken when it has come to rest.
-constexpr int least_iterations = 60, most_iterations = 1000;
+constexpr int most_iterations = 300;
+/// The estimate rises from below: it is taken when it has come to rest over so many iterations.
+constexpr int iterations_at_rest = 8;
 constexpr double at_rest = 1e-7;
-/// Displacements of the power iteration, in spacings: small enough that the forces are linear to 1e-7, large
-/// enough that rounding stays below 1e-9.
+/// Displacements by which the forces are tried out, in spacings: small enough that these are linear to 1e-7,
+/// large enough that rounding stays below 1e-9.
 constexpr double amplitude = 1e-7;
+
+/// sqrt(m) u, and sqrt(I) theta where there is one: the operator is then symmetric, whatever the masses.
+template <int Dim>
+struct Unknowns {
+    std::vector<Vec<Dim>> moved;
+    std::vector<double> turned;
+
+    double dot(const Unknowns& other) const {
+        return parallel_sum<double>(static_cast<int>(moved.size()), [&](int begin, int end) {
+            double sum = 0;
+            for (int i = begin; i < end; ++i)
+                sum += moved[i].dot(other.moved[i]) + (turned.empty() ? 0 : turned[i] * other.turned[i]);
+            return sum;
+        });
+    }
+    /// Becomes scale * (itself - a first - b second).
+    void combine(double scale, double a, const Unknowns& first, double b, const Unknowns& second) {
+        parallel_for(static_cast<int>(moved.size()), [&](int begin, int end) {
+            for (int i = begin; i < end; ++i)
+                moved[i] = scale * (moved[i] - a * first.moved[i] - b * second.moved[i]);
+            if (turned.empty()) return;
+            for (int i = begin; i < end; ++i)
+                turned[i] = scale * (turned[i] - a * first.turned[i] - b * second.turned[i]);
+        });
+    }
+};
+
+/// M^-1/2 K M^-1/2 times `from`, as the difference that a small displacement makes to the forces at rest.
+template <int Dim>
+void apply(Model<Dim>& model, ElasticLaw<Dim>& law, const Unknowns<Dim>& from, Unknowns<Dim>& to) {
+    struct Largest {
+        double value = 0;
+        void operator+=(const Largest& other) { value = std::max(value, other.value); }
+    };
+    Particles<Dim>& particles = model.particles;
+    const int n = particles.count();
+    const double largest =  // of u over spacing, to scale by
+        parallel_sum<Largest>(n, [&](int begin, int end) {
+            Largest part;
+            for (int i = begin; i < end; ++i) {
+                part += {from.moved[i].cwiseAbs().maxCoeff() /
+                         (std::sqrt(particles.mass[i]) * particles.spacing[i])};
+                if (model.spin) part += {std::abs(from.turned[i]) / std::sqrt(model.spin->inertia[i])};
+            }
+            return part;
+        }).value;
+    const double scale = amplitude / largest;
+    parallel_for(n, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            particles.displacement[i] = scale / std::sqrt(particles.mass[i]) * from.moved[i];
+            if (model.spin) model.spin->angle[i] = scale / std::sqrt(model.spin->inertia[i]) * from.turned[i];
+        }
+    });
+    law.forces(model);
+    parallel_for(n, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            to.moved[i] = -1 / (scale * std::sqrt(particles.mass[i])) * particles.force[i];
+            if (model.spin)
+                to.turned[i] = -1 / (scale * std::sqrt(model.spin->inertia[i])) * model.spin->torque[i];
+        }
+    });
+}
 
 }  // namespace
 
@@ -26,55 +91,42 @@ template <int Dim>
 double highest_frequency(Model<Dim>& model, ElasticLaw<Dim>& law) {
     Particles<Dim>& particles = model.particles;
     const int n = particles.count();
-    // The unknowns are y = sqrt(m) u (and sqrt(I) theta): the operator is then symmetric, whatever the
-    // masses.
-    std::vector<Vec<Dim>> y(n);
-    std::vector<double> turn(model.spin ? n : 0);
+    Unknowns<Dim> last, now, next;
+    for (Unknowns<Dim>* of : {&last, &now, &next}) {
+        of->moved.assign(n, Vec<Dim>::Zero());
+        of->turned.assign(model.spin ? n : 0, 0.0);
+    }
     for (int i = 0; i < n; ++i) {
-        for (int a = 0; a < Dim; ++a) y[i][a] = unit_random(mix_bits(Dim * i + a)) - 0.5;
-        if (model.spin) turn[i] = unit_random(mix_bits(~i)) - 0.5;
+        for (int a = 0; a < Dim; ++a) now.moved[i][a] = unit_random(mix_bits(Dim * i + a)) - 0.5;
+        if (model.spin) now.turned[i] = unit_random(mix_bits(~i)) - 0.5;
     }
-    const auto norm = [&] {
-        return std::sqrt(parallel_sum<double>(n, [&](int begin, int end) {
-            double sum = 0;
-            for (int i = begin; i < end; ++i)
-                sum += y[i].squaredNorm() + (model.spin ? turn[i] * turn[i] : 0);
-            return sum;
-        }));
-    };
+    now.combine(1 / std::sqrt(now.dot(now)), 0, now, 0, now);
 
-    double eigenvalue = 0;
+    // Lanczos: the largest eigenvalue of the tridiagonal matrix of `diagonal` and `beside` rises to that of
+    // K.
+    std::vector<double> diagonal, beside, estimates;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-        double largest = 0;  // of u over spacing, to scale by
-        for (int i = 0; i < n; ++i) {
-            largest = std::max(
-                largest, y[i].cwiseAbs().maxCoeff() / (std::sqrt(particles.mass[i]) * particles.spacing[i]));
-            if (model.spin)
-                largest = std::max(largest, std::abs(turn[i]) / std::sqrt(model.spin->inertia[i]));
-        }
-        if (!(largest > 0)) break;  // no bonds at all
-        const double scale = amplitude / largest;
-        parallel_for(n, [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                particles.displacement[i] = scale / std::sqrt(particles.mass[i]) * y[i];
-                if (model.spin) model.spin->angle[i] = scale / std::sqrt(model.spin->inertia[i]) * turn[i];
-            }
-        });
-        law.forces(model);
-        const double before = norm();
-        parallel_for(n, [&](int begin, int end) {
-            for (int i = begin; i < end; ++i) {
-                y[i] = -1 / (before * scale * std::sqrt(particles.mass[i])) * particles.force[i];
-                if (model.spin)
-                    turn[i] =
-                        -1 / (before * scale * std::sqrt(model.spin->inertia[i])) * model.spin->torque[i];
-            }
-        });
-        // |K y| / |y| rises towards the largest eigenvalue and is nearer to it than the Rayleigh quotient is.
-        const double last = eigenvalue;
-        eigenvalue = norm();
-        if (iteration >= least_iterations && eigenvalue - last < at_rest * eigenvalue) break;
+        apply(model, law, now, next);
+        diagonal.push_back(next.dot(now));
+        next.combine(1, diagonal.back(), now, beside.empty() ? 0 : beside.back(), last);
+        const double norm = std::sqrt(next.dot(next));
+
+        const auto size = static_cast<Eigen::Index>(diagonal.size());
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+        eigen.computeFromTridiagonal(Eigen::VectorXd::Map(diagonal.data(), size),
+                                     Eigen::VectorXd::Map(beside.data(), size - 1), Eigen::EigenvaluesOnly);
+        estimates.push_back(eigen.eigenvalues().maxCoeff());
+        const double estimate = estimates.back();
+        if (!(norm > 1e-6 * estimate)) break;  // nothing is left to be found
+        if (iteration >= iterations_at_rest &&
+            estimate - estimates[iteration - iterations_at_rest] < at_rest * estimate)
+            break;
+        next.combine(1 / norm, 0, next, 0, next);
+        beside.push_back(norm);
+        std::swap(last, now);
+        std::swap(now, next);
     }
+    const double eigenvalue = estimates.back();
     for (int i = 0; i < n; ++i) {
         particles.displacement[i].setZero();
         particles.force[i].setZero();

@@ -3,10 +3,10 @@
 
 namespace hibi {
 
-/// Highest angular frequency of the unloaded model (1/s), by power iteration on the very forces that the run
-/// will use; nothing is held, which is on the safe side. The stable time step is 2 / omega. The model is left
-/// at rest; its displacements must be zero.
-/// Without any bond: that of a wave which crosses a particle in one stable step.
+/// Highest angular frequency of the unloaded model (1/s), to 1e-6, by Lanczos iteration on the very forces
+/// that the run will use; nothing is held, which is on the safe side. The stable time step is 2 / omega. The
+/// model is left at rest; its displacements must be zero. Without any bond: that of a wave which crosses a
+/// particle in one stable step.
 template <int Dim>
 double highest_frequency(Model<Dim>& model, ElasticLaw<Dim>& law);
 

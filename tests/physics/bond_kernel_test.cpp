@@ -97,6 +97,25 @@ TEST_P(Loops, EnergyIsTheSumOfTheParticles) {
     EXPECT_NEAR(law->energy(model_), sum, 1e-13 * sum);
 }
 
+TEST_P(Loops, StatesAreThoseOfEachParticle) {
+    const auto law = make_elastic_law<2>(model_, Elasticity::moment_matched);
+    test::turn_and_shake(model_, 0.7, 0.05);
+    const int n = model_.particles.count();
+    law->displaced(model_, 0, n);
+    const double scale = 0.05 * 2.1e8;
+    for (int begin = 0; begin < n; begin += parallel_block) {
+        const int end = std::min(n, begin + parallel_block);
+        const std::vector<LocalState<2>> states = law->local(model_, begin, end);
+        ASSERT_EQ(states.size(), static_cast<std::size_t>(end - begin));
+        for (int i = begin; i < end; ++i) {
+            const LocalState<2> one = law->local(model_, i);
+            EXPECT_NEAR(states[i - begin].energy, one.energy, 1e-13 * scale);
+            EXPECT_NEAR(states[i - begin].dilatation, one.dilatation, 1e-14);
+            EXPECT_LT((states[i - begin].stress - one.stress).norm(), 1e-13 * scale) << i;
+        }
+    }
+}
+
 TEST_P(Loops, NameTheBlockOfABondBeyondItsLimitAndNoOther) {
     BreakLimits limits = break_limits(model_, std::vector<double>(model_.bonds.count(), 0.1));
     const int weak = 2 * model_.bonds.count() / 3;

@@ -224,33 +224,75 @@ void sum_forces(const Arrays& a, int begin, int end) {
     }
 }
 
-/// U_i = mu sum_j s_ij |r - R_i r0|^2 / |r0|^2 + lambda V D_i^2 / 2
+/// R^T sum_j s_ij / |r0|^2 (r - R r0) (x) r0, which is V times the strain before it is made symmetric.
+struct Strain {
+    Chunkful xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
+};
+
+/// U_i = mu sum_j s_ij |r - R_i r0|^2 / |r0|^2 + lambda V D_i^2 / 2, and with states the stress
+/// R (2 mu strain + lambda D I) R^T.
+template <bool WithStates>
+HIBI_INLINE Chunkful energy_of(const Arrays& a, int c, State* states) {
+    Some none;
+    const Polar p(deformation<false>(a, c, none), of(a, c, a.trace, &Particle::trace));
+    const int i = c * lanes;
+    const Chunkful ux(a.ux + i), uy(a.uy + i);
+    Chunkful springs = 0.0;
+    Strain v;  // r - R r0 in place of its R^T multiple
+    each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int) {
+        const Chunkful x(bond.resting().x), y(bond.resting().y), own(bond.resting().own);
+        const Chunkful dx = neighbours(a.ux) - ux - (p.cosine_less_one * x - p.sine * y);
+        const Chunkful dy = neighbours(a.uy) - uy - (p.sine * x + p.cosine_less_one * y);
+        springs = springs + own * (dx * dx + dy * dy);
+        if constexpr (WithStates) {
+            const Chunkful sx = own * x, sy = own * y;
+            v.xx = v.xx + dx * sx;
+            v.xy = v.xy + dx * sy;
+            v.yx = v.yx + dy * sx;
+            v.yy = v.yy + dy * sy;
+        }
+    });
+    const Chunkful two_mu = of(a, c, a.two_mu, &Particle::two_mu);
+    const Chunkful lambda = of(a, c, a.lambda, &Particle::lambda);
+    const Chunkful volume = of(a, c, a.volume, &Particle::volume);
+    const Chunkful energy = 0.5 * (two_mu * springs + lambda * volume * (p.dilatation * p.dilatation));
+    if constexpr (WithStates) {
+        const Chunkful cosine = 1.0 + p.cosine_less_one, per_volume = 1.0 / volume;
+        const Chunkful exx = (cosine * v.xx + p.sine * v.yx) * per_volume;
+        const Chunkful eyy = (cosine * v.yy - p.sine * v.xy) * per_volume;
+        const Chunkful exy =
+            0.5 * ((cosine * v.xy + p.sine * v.yy) + (cosine * v.yx - p.sine * v.xx)) * per_volume;
+        const Chunkful pressure = lambda * p.dilatation;
+        const Chunkful sxx = two_mu * exx + pressure, syy = two_mu * eyy + pressure, sxy = two_mu * exy;
+        const Chunkful cc = cosine * cosine, ss = p.sine * p.sine, cs = cosine * p.sine;
+        double energies[lanes], dilatation[lanes], xx[lanes], yy[lanes], xy[lanes];
+        energy.store(energies);
+        p.dilatation.store(dilatation);
+        (cc * sxx - 2.0 * cs * sxy + ss * syy).store(xx);
+        (ss * sxx + 2.0 * cs * sxy + cc * syy).store(yy);
+        (cs * (sxx - syy) + (cc - ss) * sxy).store(xy);
+        for (int l = 0; l < lanes; ++l) states[l] = {energies[l], dilatation[l], xx[l], yy[l], xy[l]};
+    }
+    return energy;
+}
+
 double energy(const Arrays& a, int begin, int end) {
     double sum = 0;
-    Some none;
     for (int c = begin; c < end; ++c) {
-        const Polar p(deformation<false>(a, c, none), of(a, c, a.trace, &Particle::trace));
-        const int i = c * lanes;
-        const Chunkful ux(a.ux + i), uy(a.uy + i);
-        Chunkful springs = 0.0;
-        each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int) {
-            const Chunkful x(bond.resting().x), y(bond.resting().y);
-            const Chunkful dx = neighbours(a.ux) - ux - (p.cosine_less_one * x - p.sine * y);
-            const Chunkful dy = neighbours(a.uy) - uy - (p.sine * x + p.cosine_less_one * y);
-            springs = springs + Chunkful(bond.resting().own) * (dx * dx + dy * dy);
-        });
-        const Chunkful two_mu = of(a, c, a.two_mu, &Particle::two_mu);
-        const Chunkful bulk = of(a, c, a.lambda, &Particle::lambda) * of(a, c, a.volume, &Particle::volume);
         double of_lane[lanes];
-        (0.5 * (two_mu * springs + bulk * (p.dilatation * p.dilatation))).store(of_lane);
+        energy_of<false>(a, c, nullptr).store(of_lane);
         for (const double e : of_lane) sum += e;
     }
     return sum;
 }
 
+void states(const Arrays& a, int begin, int end, State* to) {
+    for (int c = begin; c < end; ++c) energy_of<true>(a, c, to + (c - begin) * lanes);
+}
+
 }  // namespace
 
 extern const Loops loops;
-const Loops loops{HIBI_NAME(HIBI_LEVEL), deform<false>, deform<true>, sum_forces, energy};
+const Loops loops{HIBI_NAME(HIBI_LEVEL), deform<false>, deform<true>, sum_forces, energy, states};
 
 }  // namespace hibi::kernel::HIBI_LEVEL
