@@ -109,7 +109,8 @@ class MomentMatched final : public ElasticLaw<2> {
         std::vector<LocalState<2>> local(end - begin);
         for (int k = 0; k < end - begin; ++k) {
             const kernel::State& s = states[k];
-            local[k] = {.energy = s.energy, .dilatation = s.dilatation};
+            local[k].energy = s.energy;
+            local[k].dilatation = s.dilatation;
             local[k].stress << s.xx, s.xy, s.xy, s.yy;
         }
         return local;
