@@ -161,6 +161,7 @@ void warn_of_fast_ramps(const Scene& scene, const RunSummary& summary, double da
 std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simulation,
                                   const RunSummary& summary, double damping_rate, double largest_strain) {
     std::vector<std::string> list;
+    if (simulation.instability()) list.push_back(*simulation.instability());
     if (simulation.collapse()) list.push_back(*simulation.collapse());
     if (simulation.can_break() && !summary.events.first_break)
         list.push_back(

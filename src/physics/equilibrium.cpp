@@ -134,6 +134,15 @@ bool Equilibrium<Dim>::factorise() {
     return cholesky_->factorise(K) && cholesky_->weakest(K).ratio > singular_pivot / 100;
 }
 
+/// K x with zeros where held; returns x^T K x.
+template <int Dim>
+double Equilibrium<Dim>::multiply_free(const Eigen::VectorXd& x, Eigen::VectorXd& Kx) const {
+    tangent_.multiply(x, Kx);
+    for (int k = 0; k < Kx.size(); ++k)
+        if (held_[k / Dim][k % Dim]) Kx[k] = 0;
+    return x.dot(Kx);
+}
+
 /// step = K^-1 residual to the given accuracy, by what factor there is; false where the factor does not do or
 /// K is not positive definite.
 template <int Dim>
@@ -151,10 +160,7 @@ bool Equilibrium<Dim>::conjugate_gradients(double accuracy, int most) {
         else
             p = z + next / rz * p;
         rz = next;
-        tangent_.multiply(p, Kp);
-        for (int k = 0; k < Kp.size(); ++k)
-            if (held_[k / Dim][k % Dim]) Kp[k] = 0;
-        const double curvature = p.dot(Kp);
+        const double curvature = multiply_free(p, Kp);
         if (!(curvature > 0)) return false;
         step_ += rz / curvature * p;
         r -= rz / curvature * Kp;
@@ -169,15 +175,26 @@ bool Equilibrium<Dim>::newton_step(double accuracy, bool& smooth) {
     const auto is_sane = [&] { return step_.cwiseAbs().maxCoeff() <= extent_; };
     tangent_.shift(0);
     if (factorised_ && conjugate_gradients(accuracy, most_iterations) && is_sane()) return true;
-    for (double shift = 0; shift <= last_shift; shift = std::max(first_shift, next_shift * shift)) {
+    // Where one shift was needed, the next is seldom far from it, and factors are dear.
+    const double least = std::max(first_shift, last_shift_ / next_shift);
+    for (double shift = 0; shift <= last_shift; shift = std::max(least, next_shift * shift)) {
         tangent_.shift(shift);
         factorised_ = factorise();
         if (!factorised_) continue;
+        last_shift_ = shift;
         if (shift > 0) smooth = false;
         conjugate_gradients(accuracy, most_iterations_when_new);
         if (is_sane() && step_.dot(residual_) > 0) return true;
     }
     return false;
+}
+
+template <int Dim>
+double Equilibrium<Dim>::potential(const Model<Dim>& model, const ElasticLaw<Dim>& law,
+                                   const std::vector<Vec<Dim>>& applied) {
+    const double elastic = law.energy(model), work = dot<Dim>(applied, model.particles.displacement);
+    largest_potential_ = std::max({largest_potential_, elastic, std::abs(work)});
+    return elastic - work;
 }
 
 /// Goes along the Newton step as far as the potential energy falls.
@@ -186,19 +203,15 @@ bool Equilibrium<Dim>::search_along_step(Model<Dim>& model, ElasticLaw<Dim>& law
                                          const std::vector<Vec<Dim>>& applied) {
     std::vector<Vec<Dim>>& u = model.particles.displacement;
     before_step_ = u;
-    double parts = 0;
-    const auto potential = [&] {
-        const double elastic = law.energy(model), work = dot<Dim>(applied, u);
-        parts = std::max({parts, elastic, std::abs(work)});
-        return elastic - work;
-    };
-    const double before = potential(), slope = residual_.dot(step_);
+    largest_potential_ = 0;
+    const double before = potential(model, law, applied), slope = residual_.dot(step_);
     double length = 1;
     for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
         for (int i = 0; i < model.particles.count(); ++i)
             u[i] = before_step_[i] + length * step_.segment<Dim>(Dim * i);
         // The slack is rounding: near the minimum the energy no longer tells where it lies.
-        if (potential() <= before - 1e-4 * length * slope + 1e-12 * parts) return true;
+        const double now = potential(model, law, applied);
+        if (now <= before - 1e-4 * length * slope + slack_of_potential()) return true;
     }
     u = before_step_;
     return false;
@@ -262,10 +275,15 @@ Settled Equilibrium<Dim>::find(Model<Dim>& model, ElasticLaw<Dim>& law, const st
         if (settled.newton_steps == most_newton_steps) return give_up();
         const double share = std::min(1.0, norm / scale_);
         const double accuracy = std::clamp(share, std::min(0.3 * tolerance / share, 1e-2), 1e-2);
-        if (!newton_step(accuracy, settled.smooth) || !search_along_step(model, law, applied))
+        if (!newton_step(accuracy, settled.smooth)) {
+            // However stiff the body is made: this load would throw it farther than it is long.
+            settled.senseless = step_.cwiseAbs().maxCoeff() > extent_;
             return give_up();
-        for (int i = 0; i < n; ++i)
-            if (!((u[i] - start[i]).cwiseAbs().maxCoeff() <= flight * extent_)) return give_up();
+        }
+        if (!search_along_step(model, law, applied)) return give_up();
+        for (int i = 0; i < n && !settled.senseless; ++i)
+            settled.senseless = !((u[i] - start[i]).cwiseAbs().maxCoeff() <= flight * extent_);
+        if (settled.senseless) return give_up();
         law.forces(model);
         if (enough && enough()) {
             settled.stopped = true;

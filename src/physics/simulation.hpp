@@ -89,6 +89,11 @@ class Simulation {
     /// way and, before the first break, what to try. The state is the last equilibrium; further steps change
     /// nothing.
     const std::optional<std::string>& collapse() const { return collapse_; }
+    /// Statics only: says when, under which load and where an equilibrium became unstable, before the first
+    /// break; the first time. The body was then led on to a stable one.
+    const std::optional<std::string>& instability() const { return instability_; }
+    /// Statics only: how many factors of a tangent were tried, which is what time goes into.
+    int factorisations() const { return equilibrium_ ? equilibrium_->factorisations() : 0; }
     /// Why a run at this state is likely to have gone wrong, for messages.
     std::string likely_cause() const;
 
@@ -150,16 +155,27 @@ class Simulation {
     void static_step();
     std::vector<std::string> static_stage_names() const;
     void relax();
-    std::string collapse_message(const std::string& when, int particle, const std::string& way_out) const;
-    void go_back_to_next_break();
+    std::string collapse_message(const std::string& when, const Settled& settled,
+                                 const std::string& way_out) const;
+    void note_instability(const Settled::Unstable& unstable, double from, double to, double share);
+    std::string place_text(int particle) const;
+    int senseless_bond() const;
     void raise_loads();
     void pause();
-    int approach(double to);
-    void find_first_break(double from, double lower, double upper);
-    Settled settle(double load_time, double share = 1, const std::function<bool()>& enough = {});
+    Settled approach(double to);
+    enum class Search {
+        any_equilibrium,
+        stable_equilibrium,
+        next_break  ///< down the energy, until a bond is beyond its limit
+    };
+    Settled settle(double load_time, Search search, double share = 1);
     StaticState static_state() const;
     void restore(const StaticState& state);
     void count_work(const StaticState& before, bool smooth);
+
+    // static_break.cpp
+    void find_first_break(const StaticState& before, double lower, double upper);
+    void go_back_to_next_break();
     double utilisation(int bond) const;
     double highest_utilisation() const;
     void break_overstrained();
@@ -200,7 +216,8 @@ class Simulation {
     bool settled_ = true;                          ///< no bond has broken since equilibrium was found
     bool smooth_ = true;                           ///< see Settled, of the last step
     std::vector<char> fragment_;                   ///< particles that nothing ties to a support
-    std::optional<std::string> collapse_;
+    std::optional<std::string> collapse_, instability_;
+    bool buckled_ = false;  ///< instability_ stands: from there a stable equilibrium was reached
 };
 
 extern template class Simulation<2>;

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/parallel.hpp"
 #include "base/units.hpp"
 #include "physics/simulation.hpp"
 
@@ -12,13 +11,11 @@ namespace hibi {
 
 namespace {
 
-/// The load of a break is found to this part of it: in time, or in how far the bond is beyond its limit.
-constexpr double break_precision = 1e-6;
-constexpr int most_trials = 60;
 /// A load step that does not converge is made in parts, down to this one.
 constexpr double smallest_part = 1.0 / 64;
-/// Bonds as close as this share one limit but for rounding: the first in their order goes.
-constexpr double same_utilisation = 1e-8;
+/// Times its length to which a bond may be squeezed or stretched: no solid stands more, so the search for
+/// such an equilibrium is not worth its time.
+constexpr double shortest = 0.1, longest = 4;
 
 }  // namespace
 
@@ -34,7 +31,7 @@ void Simulation<Dim>::start_statics() {
     const StaticState before = static_state();
     double done = 0, part = 1;
     while (done < 1 && !collapse_) {
-        const Settled settled = settle(0, done + part);
+        const Settled settled = settle(0, Search::stable_equilibrium, done + part);
         if (settled.found)
             done += part;
         else
@@ -44,7 +41,7 @@ void Simulation<Dim>::start_statics() {
                 fmt::format("under {:.3g} % of what acts from the first moment on (gravity, and loads "
                             "without a ramp)",
                             100 * (done + smallest_part)),
-                settled.gave_way, "a smaller load, or less gravity");
+                settled, "a smaller load, or less gravity");
         part = std::min(part, 1 - done);
     }
     count_work(before, false);
@@ -70,12 +67,11 @@ template <int Dim>
 void Simulation<Dim>::relax() {
     const StaticState before = static_state();
     pause();
-    Settled settled = settle(load_time_);
-    const auto overstrained = [&] { return highest_utilisation() > 1; };
-    if (can_break() && physics_.statics->sequential && (!settled.found || overstrained())) {
+    Settled settled = settle(load_time_, Search::stable_equilibrium);
+    if (can_break() && physics_.statics->sequential && (!settled.found || highest_utilisation() > 1)) {
         if (settled.found) restore(before);
         // The way down the energy is the nearest there is to what the body would do.
-        settled = settle(load_time_, 1, overstrained);
+        settled = settle(load_time_, Search::next_break);
         if (settled.stopped) go_back_to_next_break();
     }
     settled_ = true;
@@ -83,43 +79,54 @@ void Simulation<Dim>::relax() {
         count_work(before, false);
     else
         collapse_ = collapse_message(fmt::format("after the break at t = {}", format_si(load_time_, "s", 4)),
-                                     settled.gave_way, "");
+                                     settled, "");
 }
 
 /// `way_out`: what to try instead; before the first break only, since later a collapse is an outcome.
 template <int Dim>
-std::string Simulation<Dim>::collapse_message(const std::string& when, int particle,
+std::string Simulation<Dim>::collapse_message(const std::string& when, const Settled& settled,
                                               const std::string& way_out) const {
     std::string text = fmt::format("no equilibrium {}", when);
-    if (particle >= 0) {
-        const Vec3 X = place(particle);
-        text += fmt::format(": body \"{}\" gives way, most of all at ({:.4g}, {:.4g}) m",
-                            model_.bodies[model_.particles.body[particle]].name, X.x(), X.y());
-    }
+    if (const int i = settled.gave_way; i >= 0)
+        text += fmt::format(
+            ": body \"{}\" {}, most of all at {}", model_.bodies[model_.particles.body[i]].name,
+            settled.senseless ? "is crushed, stretched or flung beyond what a linear law can stand for"
+                              : "gives way",
+            place_text(i));
     if (broken_ > 0 || way_out.empty()) return text;
-    return text +
-           fmt::format("; it buckles, or bears no more: try {}; method = \"explicit\" shows the motion",
-                       way_out);
+    if (settled.senseless)
+        return text + fmt::format(
+                          "; the loads may be far too large for the material: are their units and "
+                          "that of youngs_modulus right? If so, try {}{}",
+                          way_out, can_break() ? "" : ", or give the material a break_strain");
+    text += fmt::format("; it buckles, or bears no more: try {}; method = \"explicit\" shows the motion",
+                        way_out);
+    return instability_ ? text + "; " + *instability_ : text;
 }
 
-/// Within the last step towards equilibrium, to the place where a bond passes its limit.
 template <int Dim>
-void Simulation<Dim>::go_back_to_next_break() {
-    std::vector<Vec<Dim>>& u = model_.particles.displacement;
-    const std::vector<Vec<Dim>> start = equilibrium_->before_last_step(), end = u;
-    const auto go_to = [&](double share) {
-        parallel_for(model_.particles.count(), [&](int first, int last) {
-            for (int i = first; i < last; ++i) u[i] = start[i] + share * (end[i] - start[i]);
-        });
-    };
-    double below = 0, beyond = 1;
-    while (beyond - below > break_precision) {
-        const double middle = (below + beyond) / 2;
-        go_to(middle);
-        (highest_utilisation() > 1 ? beyond : below) = middle;
+std::string Simulation<Dim>::place_text(int particle) const {
+    const Vec3 X = place(particle);
+    return fmt::format("({:.4g}, {:.4g}) m", X.x(), X.y());
+}
+
+/// `share` of the loads; the way led from one time of the loads to another.
+template <int Dim>
+void Simulation<Dim>::note_instability(const Settled::Unstable& unstable, double from, double to,
+                                       double share) {
+    const double time = from + unstable.share * (to - from);
+    std::string text = fmt::format("equilibrium became unstable at t = {}", format_si(time, "s", 4));
+    if (to == 0) text = fmt::format("equilibrium is unstable under {:.3g} % of the first loads", 100 * share);
+    for (const Load& load : physics_.loads) {
+        if (to == 0 || !load.primary || load.share.empty()) continue;
+        Vec3 total = Vec3::Zero();
+        for (std::size_t k = 0; k < load.particles.size(); ++k)
+            total += to_3d<Dim>(applied_force(load, k, time));
+        text += fmt::format(", under a load of {}", format_si(std::abs(total.dot(load.direction)), "N", 4));
     }
-    go_to(beyond);
-    sum_forces();
+    const int i = unstable.particle;
+    instability_ = text + fmt::format(": body \"{}\" buckles, most of all at {}",
+                                      model_.bodies[model_.particles.body[i]].name, place_text(i));
 }
 
 template <int Dim>
@@ -129,14 +136,14 @@ void Simulation<Dim>::raise_loads() {
     const double lower = highest_utilisation();
     const StaticState before = static_state();
     smooth_ = true;
-    const int gave_way = approach(next);
+    const Settled settled = approach(next);
     if (const double upper = highest_utilisation(); upper > 1)
-        find_first_break(before.load_time, lower, upper);
+        find_first_break(before, lower, upper);
     else if (load_time_ < next)
         collapse_ = collapse_message(
             fmt::format("found between the loads at t = {} and {}", format_si(load_time_, "s", 4),
                         format_si(load_time_ + smallest_part * (next - before.load_time), "s", 4)),
-            gave_way, "more load_steps or a smaller load");
+            settled, "more load_steps or a smaller load");
     count_work(before, smooth_);
     if (load_time_ > time_)
         time_ = load_time_;
@@ -151,62 +158,33 @@ void Simulation<Dim>::pause() {
     time_ += left > 0 ? std::min(pause, left / 4) : pause;
 }
 
-/// Raises the loads as far as there is equilibrium, in parts if need be. Returns the particle that gave way
-/// when it was last not found, or -1.
+/// Raises the loads as far as there is equilibrium, in parts if need be. Returns the last search that failed,
+/// if one did.
 template <int Dim>
-int Simulation<Dim>::approach(double to) {
+Settled Simulation<Dim>::approach(double to) {
     const double from = load_time_;
     double done = 0, part = 1;
-    int gave_way = -1;
+    Settled failed;
     while (done < 1 && part >= smallest_part) {
-        const Settled settled = settle(done + part < 1 ? from + (done + part) * (to - from) : to);
+        const double next = done + part < 1 ? from + (done + part) * (to - from) : to;
+        const Settled settled = settle(next, Search::stable_equilibrium);
         if (settled.found) {
             done += part;
             part = std::min(2 * part, 1 - done);
         } else {
             part /= 2;
-            gave_way = settled.gave_way;
+            failed = settled;
         }
     }
-    return gave_way;
-}
-
-/// Between loads that all bonds bear and the present ones, which some do not, finds the first at which a bond
-/// is beyond its limit: by the Illinois variant of regula falsi, whose first secant nearly always hits, since
-/// strains are almost linear in the load. Breaks nothing.
-template <int Dim>
-void Simulation<Dim>::find_first_break(double from, double lower, double upper) {
-    const double aim = 1 + break_precision / 2;
-    StaticState beyond = static_state();
-    double to = load_time_, f_from = lower - aim, f_to = upper - aim;
-    int side = 0;
-    for (int trial = 0; trial < most_trials; ++trial) {
-        if (upper <= 1 + break_precision || to - from <= break_precision * to) break;
-        const double t = from + (to - from) * std::clamp(f_from / (f_from - f_to), 0.001, 0.999);
-        if (!settle(t).found) break;
-        const double used = highest_utilisation();
-        if (used > 1) {
-            beyond = static_state();
-            upper = used;
-            to = t;
-            f_to = used - aim;
-            if (side == 1) f_from /= 2;
-            side = 1;
-        } else {
-            from = t;
-            f_from = used - aim;
-            if (side == -1) f_to /= 2;
-            side = -1;
-        }
-    }
-    if (load_time_ != to) restore(beyond);
+    return failed;
 }
 
 /// Equilibrium under a share of the loads of that time. Where there is none, nothing is changed.
 template <int Dim>
-Settled Simulation<Dim>::settle(double load_time, double share, const std::function<bool()>& enough) {
+Settled Simulation<Dim>::settle(double load_time, Search search, double share) {
     const Particles<Dim>& particles = model_.particles;
     const int n = particles.count();
+    const std::vector<Vec<Dim>> start = particles.displacement;
     std::vector<LoadState> loads = loads_;
     std::vector<Vec<Dim>> applied(n, Vec<Dim>::Zero()), moved;
     for (std::size_t l = 0; l < loads.size(); ++l) {
@@ -227,7 +205,27 @@ Settled Simulation<Dim>::settle(double load_time, double share, const std::funct
         d.moved = moved[d.particle][d.axis] = to - d.displacement;
         d.displacement = to;
     }
-    const Settled settled = equilibrium_->find(model_, *law_, applied, moved, enough);
+    // Bonds that break all together may be torn to any length before they do.
+    const bool sensible = broken_ == 0 || physics_.statics->sequential;
+    int senseless = -1;
+    const auto enough = [&] {
+        if (search == Search::next_break) return highest_utilisation() > 1;
+        if (sensible) senseless = senseless_bond();
+        return senseless >= 0;
+    };
+    Settled settled = search == Search::stable_equilibrium
+                          ? equilibrium_->find_stable(model_, *law_, applied, moved, enough)
+                          : equilibrium_->find(model_, *law_, applied, moved, enough);
+    if (senseless >= 0) {
+        model_.particles.displacement = start;
+        settled.stopped = false;
+        settled.senseless = true;
+        settled.gave_way = model_.bonds.first[senseless];
+    }
+    if (settled.unstable && broken_ == 0 && !buckled_) {
+        note_instability(*settled.unstable, load_time_, load_time, share);
+        buckled_ = settled.found;
+    }
     if (settled.found) {
         loads_ = std::move(loads);
         driven_ = std::move(driven);
@@ -236,6 +234,22 @@ Settled Simulation<Dim>::settle(double load_time, double share, const std::funct
     }
     sum_forces();
     return settled;
+}
+
+/// The first bond that is squeezed or stretched beyond sense, or -1.
+template <int Dim>
+int Simulation<Dim>::senseless_bond() const {
+    const Bonds& bonds = model_.bonds;
+    const Particles<Dim>& particles = model_.particles;
+    for (int b = 0; b < bonds.count(); ++b) {
+        const int i = bonds.first[b], j = bonds.second[b];
+        if (!bonds.is_intact(b) || fragment_[i]) continue;
+        const Vec<Dim> r0 = particles.reference_position[j] - particles.reference_position[i];
+        const double times =
+            (r0 + particles.displacement[j] - particles.displacement[i]).squaredNorm() / r0.squaredNorm();
+        if (!(times >= shortest * shortest && times <= longest * longest)) return b;
+    }
+    return -1;
 }
 
 template <int Dim>
@@ -255,7 +269,9 @@ void Simulation<Dim>::restore(const StaticState& state) {
 }
 
 /// Work of loads and prescribed motion by the trapezoidal rule. On a smooth path that leaves a balance to be
-/// checked; otherwise, after a break or a snap, what the elastic energy lacks was lost on the way.
+/// checked; otherwise, after a break or a snap, what the elastic energy lacks was lost on the way. Where it
+/// has more than the rule knows of, the work was done late in the step, under more load: beyond a buckling
+/// load.
 template <int Dim>
 void Simulation<Dim>::count_work(const StaticState& before, bool smooth) {
     const Particles<Dim>& particles = model_.particles;
@@ -274,57 +290,8 @@ void Simulation<Dim>::count_work(const StaticState& before, bool smooth) {
     }
     if (smooth) return;
     const Energies now = energies(), then = before.energies;
-    damped_ += (now.work - then.work) - (now.elastic - then.elastic);
-}
-
-/// Growth of L^2 over its limit: above 1 the bond breaks. 0 in fragments, which are frozen with their
-/// strains.
-template <int Dim>
-double Simulation<Dim>::utilisation(int bond) const {
-    const Bonds& bonds = model_.bonds;
-    const int i = bonds.first[bond], j = bonds.second[bond];
-    if (!bonds.is_intact(bond) || fragment_[i]) return 0;
-    const Particles<Dim>& particles = model_.particles;
-    const Vec<Dim> r0 = particles.reference_position[j] - particles.reference_position[i];
-    const Vec<Dim> du = particles.displacement[j] - particles.displacement[i];
-    const double growth = (2 * r0.dot(du) + du.squaredNorm()) / r0.squaredNorm();
-    return growth / (growth > 0 ? limits_.upper[bond] : limits_.lower[bond]);
-}
-
-template <int Dim>
-double Simulation<Dim>::highest_utilisation() const {
-    double highest = 0;
-    if (can_break())
-        for (int b = 0; b < model_.bonds.count(); ++b) highest = std::max(highest, utilisation(b));
-    return highest;
-}
-
-template <int Dim>
-void Simulation<Dim>::break_overstrained() {
-    const Bonds& bonds = model_.bonds;
-    const double highest = highest_utilisation();
-    if (highest <= 1) return;
-    const bool sequential = physics_.statics->sequential;
-    const double enough = sequential ? highest * (1 - same_utilisation) : 1;
-    for (int b = 0; b < bonds.count(); ++b) {
-        if (!(utilisation(b) > enough)) continue;
-        const int i = bonds.first[b], j = bonds.second[b];
-        just_broken_.push_back(b);
-        breaking_strains_.push_back(
-            bond_strain<Dim>(model_.particles.reference_position[j] - model_.particles.reference_position[i],
-                             model_.particles.displacement[j] - model_.particles.displacement[i]));
-        if (sequential) break;
-    }
-    break_bonds();
-    settled_ = false;
-    // What no longer hangs on anything has no equilibrium: it stays where it is.
-    const std::vector<char> tied = tied_to_support(bonds, held_);
-    for (int i = 0; i < model_.particles.count(); ++i) {
-        if (tied[i] || fragment_[i]) continue;
-        fragment_[i] = 1;
-        equilibrium_->hold(i);
-    }
-    sum_forces();
+    const double lost = (now.work - then.work) - (now.elastic - then.elastic);
+    (lost > 0 ? damped_ : work_) += std::abs(lost);
 }
 
 template <int Dim>
