@@ -20,7 +20,9 @@ struct Deforming {
 template <class Number>
 struct Pulling {
     Number spring{};    ///< 2 mu_i s_ij / |r0|^2 + 2 mu_j s_ji / |r0|^2 (N/m)
-    Number ex{}, ey{};  ///< s_ji / |r0|^2 r0 (m^2): its part in the neighbour's pull
+    Number mx{}, my{};  ///< (s_ij + s_ji) / 2 / |r0|^2 r0 (m^2): the bond's part in the pull of both ends
+    Number dx{},
+        dy{};  ///< (s_ij - s_ji) / 2 / |r0|^2 r0 (m^2): and in what their pulls differ; 0 deep inside
     auto operator<=>(const Pulling&) const = default;
 };
 
@@ -60,13 +62,13 @@ struct Particle {
     double two_mu = 0, lambda = 0;  ///< (Pa)
     double volume = 0;              ///< V (m^3)
     double trace = 0;               ///< m_i [-]
-    double gx = 0, gy = 0;          ///< sum of s_ij / |r0|^2 r0 over alive bonds (m^2): zero deep inside
     bool operator==(const Particle&) const = default;
 };
 
 struct Chunk {
     std::int32_t record = 0, records = 0;  ///< first of its records, and how many
     std::int32_t uniform = -1;             ///< its place in `uniform`, or -1
+    bool symmetric = false;                ///< uniform, and s_ij = s_ji in all its bonds
     std::int32_t own_lanes = -1;           ///< if not uniform: first of its records in the arrays of lanes
     std::int32_t own_limits = -1;          ///< if its limits are not those of the kinds: first in `limit`
     std::int32_t neighbours = -1;          ///< if gathered: first of its neighbour lists, `lanes` per record
@@ -84,8 +86,8 @@ struct Arrays {
     const Resting<Lanes>* resting = nullptr;
     const Limit<Lanes>* limit = nullptr;
     const std::int32_t* neighbours = nullptr;
-    const double *two_mu = nullptr, *lambda = nullptr, *volume = nullptr, *trace = nullptr, *gx = nullptr,
-                 *gy = nullptr;                    ///< as of Particle
+    const double *two_mu = nullptr, *lambda = nullptr, *volume = nullptr,
+                 *trace = nullptr;                 ///< as of Particle
     const double *ux = nullptr, *uy = nullptr;     ///< displacement (m)
     double *diagonal = nullptr, *twist = nullptr;  ///< P_i = -2 mu (R - I) + lambda D R (Pa)
     double* force = nullptr;                       ///< x, y of each particle in turn (N); no room around

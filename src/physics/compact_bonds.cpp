@@ -36,7 +36,7 @@ CompactBonds::CompactBonds(const Model<2>& model, const BondWeights& s, const st
     const Bonds& bonds = model.bonds;
     const int chunks = (particles_ + lanes - 1) / lanes;
     for (std::vector<double>* field :
-         {&two_mu_, &lambda_, &volume_, &trace_, &gx_, &gy_, &ux_, &uy_, &diagonal_, &twist_})
+         {&two_mu_, &lambda_, &volume_, &trace_, &ux_, &uy_, &diagonal_, &twist_})
         field->assign((chunks + 2) * lanes, 0);
     std::fill(volume_.begin(), volume_.end(), 1);  // they are divided by
     for (int i = 0; i < particles_; ++i) {
@@ -51,11 +51,13 @@ CompactBonds::CompactBonds(const Model<2>& model, const BondWeights& s, const st
         const double square = r0.squaredNorm();
         const double own = (forward ? s.forward[b] : s.backward[b]) / square;
         const double other = (forward ? s.backward[b] : s.forward[b]) / square;
-        const double share = own / particles.volume[i];
+        const Vec<2> share = own / particles.volume[i] * r0;
+        const Vec<2> mean = (own + other) / 2 * r0, half_difference = (own - other) / 2 * r0;
         const int j = bonds.other(b, i);
         return Slot{j,
-                    {.deforming = {share * r0.x(), share * r0.y()},
-                     .pulling = {own * two_mu(i) + other * two_mu(j), other * r0.x(), other * r0.y()},
+                    {.deforming = {share.x(), share.y()},
+                     .pulling = {own * two_mu(i) + other * two_mu(j), mean.x(), mean.y(), half_difference.x(),
+                                 half_difference.y()},
                      .resting = {r0.x(), r0.y(), own},
                      .limit = watches_ ? Limit<double>{limits.upper[b] * square, limits.lower[b] * square}
                                        : no_limit}};
@@ -116,6 +118,9 @@ bool CompactBonds::add_uniform(const Slots& slots, int first, Chunk& chunk) {
         if (!(particle(first + l) == common)) return false;
     if (uniform_.empty() || !(uniform_.back() == common)) uniform_.push_back(common);
     chunk.uniform = last_uniform_.uniform = static_cast<int>(uniform_.size()) - 1;
+    chunk.symmetric = std::all_of(slots[0].begin(), slots[0].end(), [](const Slot& slot) {
+        return slot.bond.pulling.dx == 0 && slot.bond.pulling.dy == 0;
+    });
     if (!same_limits) give_own_limits(slots, first, chunk);
     return true;
 }
@@ -171,6 +176,7 @@ void CompactBonds::give_own_limits(const Slots& slots, int first, Chunk& chunk) 
 void CompactBonds::give_own_lanes(Chunk& chunk) {
     const Record* const record = records_.data() + chunk.record;
     chunk.uniform = -1;
+    chunk.symmetric = false;
     chunk.own_lanes = static_cast<int>(resting_.size());
     for (int r = 0; r < chunk.records; ++r) {
         deforming_.emplace_back();
@@ -190,8 +196,10 @@ void CompactBonds::set_lane(int record, int lane, const Kind& bond) {
     deforming_[record].ax[lane] = bond.deforming.ax;
     deforming_[record].ay[lane] = bond.deforming.ay;
     pulling_[record].spring[lane] = bond.pulling.spring;
-    pulling_[record].ex[lane] = bond.pulling.ex;
-    pulling_[record].ey[lane] = bond.pulling.ey;
+    pulling_[record].mx[lane] = bond.pulling.mx;
+    pulling_[record].my[lane] = bond.pulling.my;
+    pulling_[record].dx[lane] = bond.pulling.dx;
+    pulling_[record].dy[lane] = bond.pulling.dy;
     resting_[record].x[lane] = bond.resting.x;
     resting_[record].y[lane] = bond.resting.y;
     resting_[record].own[lane] = bond.resting.own;
@@ -225,19 +233,11 @@ void CompactBonds::remove(int first, int second) {
 /// m_i sums alive bonds only: with d in its place a resting fragment would carry a false pressure.
 void CompactBonds::add_up(int i) {
     double trace = 0;
-    Vec<2> g = Vec<2>::Zero();
-    each_bond(i, [&](int, const Vec<2>& r0, double own) {
-        trace += own * r0.squaredNorm();
-        g += own * r0;
-    });
+    each_bond(i, [&](int, const Vec<2>& r0, double own) { trace += own * r0.squaredNorm(); });
     trace_[i + lanes] = trace / volume(i);
-    gx_[i + lanes] = g.x();
-    gy_[i + lanes] = g.y();
 }
 
-kernel::Particle CompactBonds::particle(int i) const {
-    return {two_mu(i), lambda(i), volume(i), trace(i), gx_[i + lanes], gy_[i + lanes]};
-}
+kernel::Particle CompactBonds::particle(int i) const { return {two_mu(i), lambda(i), volume(i), trace(i)}; }
 
 kernel::Arrays CompactBonds::arrays(std::vector<Vec<2>>* force) {
     return {.chunks = chunks_.data(),
@@ -253,8 +253,6 @@ kernel::Arrays CompactBonds::arrays(std::vector<Vec<2>>* force) {
             .lambda = lambda_.data() + lanes,
             .volume = volume_.data() + lanes,
             .trace = trace_.data() + lanes,
-            .gx = gx_.data() + lanes,
-            .gy = gy_.data() + lanes,
             .ux = ux_.data() + lanes,
             .uy = uy_.data() + lanes,
             .diagonal = diagonal_.data() + lanes,

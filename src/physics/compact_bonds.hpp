@@ -87,7 +87,7 @@ class CompactBonds {
     bool watches_;
     int particles_ = 0;
     /// Per particle, with room before and behind.
-    std::vector<double> two_mu_, lambda_, volume_, trace_, gx_, gy_, ux_, uy_, diagonal_, twist_;
+    std::vector<double> two_mu_, lambda_, volume_, trace_, ux_, uy_, diagonal_, twist_;
 };
 
 }  // namespace hibi

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <thread>
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
@@ -58,19 +59,25 @@ void step(benchmark::State& state, What what) {
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+/// 1, 2, 4 ... as far as there are cores.
+void add_threads(benchmark::internal::Benchmark* bench, int particles, int re) {
+    for (unsigned threads = 1; threads <= std::thread::hardware_concurrency(); threads *= 2)
+        bench->Args({particles, re, static_cast<int>(threads)});
+}
+
 void sizes(benchmark::internal::Benchmark* bench) {
     bench->ArgNames({"particles", "re", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
     for (const int re : {2100, 3015, 4100})
-        for (const int particles : {10'000, 100'000, 1'000'000})
-            for (const int threads : {1, 2}) bench->Args({particles, re, threads});
+        for (const int particles : {1'000, 10'000, 100'000, 1'000'000}) add_threads(bench, particles, re);
+}
+
+void one_size(benchmark::internal::Benchmark* bench) {
+    bench->ArgNames({"particles", "re", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
+    add_threads(bench, 100'000, 3015);
 }
 
 BENCHMARK_CAPTURE(step, plain, What::plain)->Apply(sizes);
 BENCHMARK_CAPTURE(step, breakable, What::breakable)->Apply(sizes);
-void one_size(benchmark::internal::Benchmark* bench) {
-    bench->ArgNames({"particles", "re", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
-    for (const int threads : {1, 2}) bench->Args({100'000, 3015, threads});
-}
 BENCHMARK_CAPTURE(step, damped_and_heavy, What::damped_and_heavy)->Apply(one_size);
 BENCHMARK_CAPTURE(step, turned, What::turned)->Apply(one_size);
 BENCHMARK_CAPTURE(step, jittered, What::jittered)->Apply(one_size);

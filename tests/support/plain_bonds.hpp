@@ -7,8 +7,7 @@ namespace hibi::test {
 
 /// The judge of the fast loops: forces of the moment-matched law by one plain loop over the bonds of each
 /// particle, straight from the model and in the order that the fast loops promise to keep.
-///     f_i = P_i sum_j s_ij r0 / |r0|^2 + sum_j [ spring du + s_ji / |r0|^2 P_j r0 ],  P = -2 mu (R - I) +
-///     lambda D R
+///     f_i = sum_j [ spring du + (s_ij P_i + s_ji P_j) r0 / |r0|^2 ],  P = -2 mu (R - I) + lambda D R
 inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const BondWeights& s) {
     const Particles<2>& particles = model.particles;
     const Bonds& bonds = model.bonds;
@@ -53,16 +52,18 @@ inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const BondWeights
     }
     std::vector<Vec<2>> force(particles.count());
     for (int i = 0; i < particles.count(); ++i) {
-        Vec<2> f = Vec<2>::Zero(), g = Vec<2>::Zero();
+        force[i].setZero();
         each_bond(i, [&](const Seen& bond) {
             const double spring = bond.own * two_mu(i) + bond.other * two_mu(bond.j);
-            const Vec<2> e = bond.other * bond.r0;
-            f.x() += spring * bond.du.x() + (diagonal[bond.j] * e.x() - twisted[bond.j] * e.y());
-            f.y() += spring * bond.du.y() + (diagonal[bond.j] * e.y() + twisted[bond.j] * e.x());
-            g += bond.own * bond.r0;
+            const Vec<2> mean = (bond.own + bond.other) / 2 * bond.r0;
+            const Vec<2> half_difference = (bond.own - bond.other) / 2 * bond.r0;
+            const auto pull = [](double p, double q, const Vec<2>& v) {
+                return Vec<2>(p * v.x() - q * v.y(), p * v.y() + q * v.x());
+            };
+            const double d = diagonal[i] + diagonal[bond.j], t = twisted[i] + twisted[bond.j];
+            const double dd = diagonal[i] - diagonal[bond.j], dt = twisted[i] - twisted[bond.j];
+            force[i] += spring * bond.du + (pull(d, t, mean) + pull(dd, dt, half_difference));
         });
-        force[i].x() = f.x() + (diagonal[i] * g.x() - twisted[i] * g.y());
-        force[i].y() = f.y() + (diagonal[i] * g.y() + twisted[i] * g.x());
     }
     return force;
 }

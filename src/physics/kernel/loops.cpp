@@ -198,29 +198,45 @@ bool deform(const Arrays& a, int begin, int end) {
     return beyond.any();
 }
 
-/// f_i = P_i sum_j s_ij r0 / |r0|^2 + sum_j [ spring du + s_ji / |r0|^2 P_j r0 ]
+/// f_i = sum_j [ spring du + (s_ij P_i + s_ji P_j) r0 / |r0|^2 ], the second by the mean and the difference
+/// of s_ij and s_ji: the force is then the opposite of that on the other end to the last bit.
+template <bool Symmetric>
+HIBI_INLINE void force_on(const Arrays& a, int c) {
+    const int i = c * lanes;
+    const Chunkful ux(a.ux + i), uy(a.uy + i), diagonal(a.diagonal + i), twist(a.twist + i);
+    Chunkful fx = 0.0, fy = 0.0;
+    each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int) {
+        const auto& b = bond.pulling();
+        const Chunkful dx = neighbours(a.ux) - ux, dy = neighbours(a.uy) - uy;
+        const Chunkful other_diagonal = neighbours(a.diagonal), other_twist = neighbours(a.twist);
+        const Chunkful spring(b.spring), mx(b.mx), my(b.my);
+        const Chunkful d = diagonal + other_diagonal, t = twist + other_twist;
+        Chunkful px = d * mx - t * my, py = d * my + t * mx;
+        if constexpr (!Symmetric) {
+            const Chunkful x(b.dx), y(b.dy);
+            const Chunkful dd = diagonal - other_diagonal, dt = twist - other_twist;
+            px = px + (dd * x - dt * y);
+            py = py + (dd * y + dt * x);
+        }
+        fx = fx + (spring * dx + px);
+        fy = fy + (spring * dy + py);
+    });
+    double x[lanes], y[lanes];
+    fx.store(x);
+    fy.store(y);
+    const int count = a.particles - i < lanes ? a.particles - i : lanes;
+    for (int l = 0; l < count; ++l) {
+        a.force[2 * (i + l)] = x[l];
+        a.force[2 * (i + l) + 1] = y[l];
+    }
+}
+
 void sum_forces(const Arrays& a, int begin, int end) {
     for (int c = begin; c < end; ++c) {
-        const int i = c * lanes;
-        const Chunkful ux(a.ux + i), uy(a.uy + i);
-        Chunkful fx = 0.0, fy = 0.0;
-        each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int) {
-            const Chunkful dx = neighbours(a.ux) - ux, dy = neighbours(a.uy) - uy;
-            const Chunkful diagonal = neighbours(a.diagonal), twist = neighbours(a.twist);
-            const Chunkful bx(bond.pulling().ex), by(bond.pulling().ey), spring(bond.pulling().spring);
-            fx = fx + (spring * dx + (diagonal * bx - twist * by));
-            fy = fy + (spring * dy + (diagonal * by + twist * bx));
-        });
-        const Chunkful gx = of(a, c, a.gx, &Particle::gx), gy = of(a, c, a.gy, &Particle::gy);
-        const Chunkful diagonal(a.diagonal + i), twist(a.twist + i);
-        double x[lanes], y[lanes];
-        (fx + (diagonal * gx - twist * gy)).store(x);
-        (fy + (diagonal * gy + twist * gx)).store(y);
-        const int count = a.particles - i < lanes ? a.particles - i : lanes;
-        for (int l = 0; l < count; ++l) {
-            a.force[2 * (i + l)] = x[l];
-            a.force[2 * (i + l) + 1] = y[l];
-        }
+        if (a.chunks[c].symmetric)
+            force_on<true>(a, c);
+        else
+            force_on<false>(a, c);
     }
 }
 
