@@ -3,13 +3,13 @@
 # 316 x 316 particles with r_e = 3.015 l0, in turn: the machine drifts, so only the ratio of a pair means something.
 # usage: peer.sh [BUILD_DIR] [PAIRS]          needs Debian's lammps and openmpi-bin; THREADS="1 2" by default
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")"
-build=$(realpath "${1:-../../build/release}") pairs=${2:-5}
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+build=${1:-$here/../../build/release} pairs=${2:-5}
 command -v lmp mpirun >/dev/null || { echo "peer.sh: needs the Debian packages lammps and openmpi-bin" >&2; exit 1; }
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 peer() { # ranks -> bond-updates per second
-    mpirun -np "$1" --oversubscribe --bind-to none lmp -in peer.lammps -log none 2>&1 |
+    mpirun -np "$1" --oversubscribe --bind-to none lmp -in "$here/peer.lammps" -log none 2>&1 |
         awk '/total # of bonds/ { b = $NF / 2 } /^Loop time/ { t = $4; s = $9 } END { printf "%.4g\n", b * s / t }'
 }
 own() { # benchmark threads -> bond-updates per second
