@@ -32,10 +32,12 @@ std::vector<std::int64_t> EvenStates::keep(double time, std::int64_t step) {
     return dropped;
 }
 
-Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer)
+Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer,
+                   StageTimes* profile)
     : simulation_(simulation),
       watch_(watch),
       writer_(writer),
+      profile_(profile),
       most_(2 * std::max<std::size_t>(25, scene.movie.frames() / 2)),  // even; about one state per frame
       tick_(simulation.physics().statics ? simulation.physics().statics->pause() / first_state_steps
                                          : simulation.time_step()),
@@ -72,7 +74,7 @@ void Recorder::look() {
         if (time - last_ring_ < even_.interval() / 4) return;
         last_ring_ = time;
         if (ring_.size() == ring_size) ring_.pop_front();
-        ring_.push_back(take_snapshot(simulation_));
+        ring_.push_back(snapshot());
         return;
     }
     if (!failure_) {
@@ -83,7 +85,7 @@ void Recorder::look() {
     if (events.separation && !separation_kept_) {
         separation_kept_ = true;
         failure_end_ = time + (time - events.first_break->time) / 2;
-        write_state(take_snapshot(simulation_));
+        write_state(snapshot());
     }
     if (time <= failure_end_ && failure_->due(time)) keep(*failure_);
 }
@@ -94,7 +96,12 @@ void Recorder::finish() {
         return;
     }
     if (simulation_.time() > last_row_) write_row();
-    write_state(take_snapshot(simulation_));
+    write_state(snapshot());
+}
+
+Snapshot Recorder::snapshot() const {
+    const TimedStage timed(profile_, "take states");
+    return take_snapshot(simulation_);
 }
 
 void Recorder::write_ring() {
@@ -103,6 +110,7 @@ void Recorder::write_ring() {
 }
 
 void Recorder::write_row() {
+    const TimedStage timed(profile_, "history");
     const HistoryRow row = watch_.row();
     imbalance_ = row.imbalance;
     last_row_ = row.time;
@@ -110,7 +118,7 @@ void Recorder::write_row() {
 }
 
 void Recorder::keep(EvenStates& series) {
-    write_state(take_snapshot(simulation_));
+    write_state(snapshot());
     for (const std::int64_t step : series.keep(simulation_.time(), simulation_.steps()))
         if (--wanted_[step] == 0) writer_.drop_state(step);
 }
@@ -119,6 +127,7 @@ void Recorder::write_state(Snapshot state) {
     if (++wanted_[state.step] > 1) return;
     for (const float strain : state.bond_strain)
         largest_strain_ = std::max(largest_strain_, std::abs(static_cast<double>(strain)));
+    const TimedStage timed(profile_, "wait for the writer");
     writer_.state(std::move(state));
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/stage_time.hpp"
 #include "measure/watch.hpp"
 #include "record/run_folder.hpp"
 #include "scene/scene.hpp"
@@ -35,7 +36,8 @@ class EvenStates {
 class Recorder {
  public:
     /// References are kept. The first state and row are recorded at once.
-    Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer);
+    Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer,
+             StageTimes* profile = nullptr);
 
     /// After every step, when the watch has looked.
     void look();
@@ -48,6 +50,7 @@ class Recorder {
     double largest_strain() const { return largest_strain_; }
 
  private:
+    Snapshot snapshot() const;
     void write_row();
     void write_ring();
     void keep(EvenStates& series);
@@ -56,6 +59,7 @@ class Recorder {
     const Simulation<2>& simulation_;
     Watch<2>& watch_;
     RunWriter& writer_;
+    StageTimes* profile_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
     double last_row_ = 0, imbalance_ = 0, largest_strain_ = 0;
     std::size_t most_ = 0;

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "record/planes.hpp"
+
 namespace hibi {
 
 namespace {
 
-/// Numbers in a chunk, about: large enough to compress well, small enough for HDF5's cache of 1 MB.
-constexpr std::size_t chunk_numbers = 1 << 16;
+/// Numbers in a chunk: large enough to compress well, small enough for HDF5's cache of 1 MB.
+constexpr std::size_t chunk_rows = 1 << 16;
 /// Below this many numbers the index of the chunks is larger than what compression saves.
 constexpr std::size_t chunk_minimum = 512;
 
@@ -67,23 +69,41 @@ void HdfFile::write(const std::string& name, hid_t type, std::size_t width, std:
                     const void* data) {
     const int rank = width == 1 ? 1 : 2;
     const std::array<hsize_t, 2> size = {rows, width};
+    // A column each: where one holds nothing but zeros, as z does in the plane, it costs nothing.
+    const std::array<hsize_t, 2> chunk = {std::min(rows, chunk_rows), 1};
+    const bool chunked = rows * width >= chunk_minimum;
     const HdfHandle layout = properties(H5P_DATASET_CREATE);
     bool good = H5Pset_obj_track_times(layout, false) >= 0;
-    if (rows * width >= chunk_minimum) {
-        const std::array<hsize_t, 2> chunk = {std::clamp<hsize_t>(chunk_numbers / width, 1, rows), width};
-        // The last chunk reaches beyond the data; filled on allocation, its rest is zero instead of stray
-        // memory.
-        good = good && H5Pset_chunk(layout, rank, chunk.data()) >= 0 &&
-               H5Pset_fill_time(layout, H5D_FILL_TIME_ALLOC) >= 0 && H5Pset_shuffle(layout) >= 0 &&
+    if (chunked)
+        good = good && H5Pset_chunk(layout, rank, chunk.data()) >= 0 && H5Pset_shuffle(layout) >= 0 &&
                H5Pset_deflate(layout, 1) >= 0;
-    }
     const HdfHandle space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose);
     HdfHandle dataset(H5Dcreate2(handle_, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
                       H5Dclose);
     good = good && dataset.valid();
-    if (rows > 0) good = good && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+    if (chunked)
+        good = good && write_chunks(dataset, H5Tget_size(type), width, rows, chunk[0], data);
+    else if (rows > 0)
+        good = good && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
     check(good, "write " + name);
     check(dataset.close(), "write " + name);
+}
+
+/// Past HDF5's own filters, which read what is written here.
+bool HdfFile::write_chunks(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                           std::size_t chunk_size, const void* data) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    PlaneDeflater deflater;
+    for (std::size_t row = 0; row < rows; row += chunk_size)
+        for (std::size_t c = 0; c < width; ++c) {
+            const auto deflated =
+                deflater.deflate(bytes + (row * width + c) * number_size, width * number_size,
+                                 std::min(chunk_size, rows - row), number_size, chunk_size);
+            const std::array<hsize_t, 2> place = {row, c};
+            if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, place.data(), deflated.size(), deflated.data()) < 0)
+                return false;
+        }
+    return true;
 }
 
 void HdfFile::write_attribute(const std::string& object, const std::string& name, hid_t type,

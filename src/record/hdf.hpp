@@ -89,6 +89,8 @@ class HdfFile {
 
     void check(bool good, const std::string& operation) const;
     void write(const std::string& name, hid_t type, std::size_t width, std::size_t rows, const void* data);
+    static bool write_chunks(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                             std::size_t chunk_size, const void* data);
     void write_attribute(const std::string& object, const std::string& name, hid_t type, std::size_t count,
                          const void* data);
     HdfHandle open_dataset(const std::string& name) const;

@@ -71,6 +71,18 @@ TEST_F(States, StateComesBackBitForBit) {
     EXPECT_EQ(s.stress, expected.stress);
 }
 
+TEST_F(States, OnlyTheArraysNamedAreRead) {
+    Snapshot expected = example::snapshot(20);
+    expected.angle = {0.1, -0.2, 1.0 / 3};
+    const Snapshot s = read_state(written(expected), topology_, {"displacement", "stress"});
+    EXPECT_EQ(s.displacement, expected.displacement);
+    EXPECT_EQ(s.stress, expected.stress);
+    EXPECT_EQ(s.time, expected.time);
+    EXPECT_EQ(s.broken, expected.broken);
+    EXPECT_TRUE(s.velocity.empty() && s.angle.empty() && s.bond_strain.empty() && s.damage.empty() &&
+                s.energy.empty());
+}
+
 TEST_F(States, WithoutAnglesNoneComeBack) {
     EXPECT_TRUE(read_state(written(example::snapshot(0)), topology_).angle.empty());
 }
