@@ -74,7 +74,8 @@ void Recorder::look() {
         if (time - last_ring_ < even_.interval() / 4) return;
         last_ring_ = time;
         if (ring_.size() == ring_size) ring_.pop_front();
-        ring_.push_back(snapshot());
+        const TimedStage timed(profile_, "take states");
+        ring_.push_back(copy_motion(simulation_));
         return;
     }
     if (!failure_) {
@@ -85,7 +86,7 @@ void Recorder::look() {
     if (events.separation && !separation_kept_) {
         separation_kept_ = true;
         failure_end_ = time + (time - events.first_break->time) / 2;
-        write_state(snapshot());
+        write_now();
     }
     if (time <= failure_end_ && failure_->due(time)) keep(*failure_);
 }
@@ -96,16 +97,31 @@ void Recorder::finish() {
         return;
     }
     if (simulation_.time() > last_row_) write_row();
-    write_state(snapshot());
+    write_now();
 }
 
-Snapshot Recorder::snapshot() const {
-    const TimedStage timed(profile_, "take states");
-    return take_snapshot(simulation_);
+/// One more reason to keep the state of a step: is it recorded already?
+bool Recorder::wanted_already(std::int64_t step) { return ++wanted_[step] > 1; }
+
+void Recorder::write_now() {
+    if (wanted_already(simulation_.steps())) return;
+    std::optional<TimedStage> taking(std::in_place, profile_, "take states");
+    Snapshot state = take_snapshot(simulation_);
+    taking.reset();
+    write_state(std::move(state));
 }
 
 void Recorder::write_ring() {
-    for (Snapshot& s : ring_) write_state(std::move(s));
+    std::erase_if(ring_, [&](const Motion<2>& motion) { return wanted_already(motion.step); });
+    if (ring_.empty()) return;
+    std::optional<TimedStage> taking(std::in_place, profile_, "take states");
+    UnbrokenBody<2> body(simulation_);
+    for (Motion<2>& motion : ring_) {
+        if (!taking) taking.emplace(profile_, "take states");
+        Snapshot state = body.snapshot(std::move(motion));
+        taking.reset();
+        write_state(std::move(state));
+    }
     ring_.clear();
 }
 
@@ -118,13 +134,12 @@ void Recorder::write_row() {
 }
 
 void Recorder::keep(EvenStates& series) {
-    write_state(snapshot());
+    write_now();
     for (const std::int64_t step : series.keep(simulation_.time(), simulation_.steps()))
         if (--wanted_[step] == 0) writer_.drop_state(step);
 }
 
 void Recorder::write_state(Snapshot state) {
-    if (++wanted_[state.step] > 1) return;
     for (const float strain : state.bond_strain)
         largest_strain_ = std::max(largest_strain_, std::abs(static_cast<double>(strain)));
     const TimedStage timed(profile_, "wait for the writer");

@@ -50,7 +50,8 @@ class Recorder {
     double largest_strain() const { return largest_strain_; }
 
  private:
-    Snapshot snapshot() const;
+    bool wanted_already(std::int64_t step);
+    void write_now();
     void write_row();
     void write_ring();
     void keep(EvenStates& series);
@@ -75,7 +76,7 @@ class Recorder {
     };
     std::vector<Span> spans_;  ///< slow motion at times known beforehand
     double last_ring_ = 0;
-    std::deque<Snapshot> ring_;  ///< recent states, until first break
+    std::deque<Motion<2>> ring_;  ///< of recent moments, until first break
     bool separation_kept_ = false;
 };
 

@@ -345,7 +345,7 @@ int run_command(const RunOptions& options) {
     refuse_other_scene(folder, options);
     note_plain_numbers(options);
     Built<2> built = build(scene);
-    const Topology topology = topology_of(scene, built);
+    Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
     Watch<2> watch(simulation);
     require_separable(scene, watch);
@@ -367,7 +367,7 @@ int run_command(const RunOptions& options) {
     summary.trusted = false;
     RunWriter writer(folder, to_comment(provenance_of(summary)), profile);
     writer.scene(write_scene(scene));
-    writer.topology(topology);
+    writer.topology(std::move(topology));
     write_summary(folder, summary);
     summary.seconds["setup"] = total.seconds();
 

@@ -179,17 +179,15 @@ float single(double value) {
     return static_cast<float>(std::clamp(value, -largest, largest));
 }
 
-}  // namespace
-
-template <int Dim>
-Snapshot take_snapshot(const Simulation<Dim>& simulation) {
-    const Model<Dim>& model = simulation.model();
+/// `local_state` gives the LocalState of a particle.
+template <int Dim, class Local>
+Snapshot make_snapshot(const Model<Dim>& model, double time, std::int64_t step, Local&& local_state) {
     const Particles<Dim>& particles = model.particles;
     const Bonds& bonds = model.bonds;
     const int n = particles.count();
     Snapshot s;
-    s.time = simulation.time();
-    s.step = simulation.steps();
+    s.time = time;
+    s.step = step;
     s.displacement.resize(n);
     s.velocity.resize(n);
     if (model.spin) s.angle = model.spin->angle;
@@ -222,7 +220,7 @@ Snapshot take_snapshot(const Simulation<Dim>& simulation) {
             }
             s.bond_strain[i] = single(largest);
             s.damage[i] = count > 0 ? static_cast<float>(broken) / static_cast<float>(count) : 0;
-            const LocalState<Dim> local = simulation.local(i);
+            const LocalState<Dim> local = local_state(i);
             s.energy[i] = single(local.energy);
             Mat<3> stress = Mat<3>::Zero();
             stress.template topLeftCorner<Dim, Dim>() = local.stress;
@@ -238,6 +236,39 @@ Snapshot take_snapshot(const Simulation<Dim>& simulation) {
     return s;
 }
 
+}  // namespace
+
+template <int Dim>
+Snapshot take_snapshot(const Simulation<Dim>& simulation) {
+    return make_snapshot(simulation.model(), simulation.time(), simulation.steps(),
+                         [&](int i) { return simulation.local(i); });
+}
+
 template Snapshot take_snapshot<2>(const Simulation<2>&);
+
+template <int Dim>
+Motion<Dim> copy_motion(const Simulation<Dim>& simulation) {
+    const Model<Dim>& model = simulation.model();
+    return {simulation.time(), simulation.steps(), model.particles.displacement, model.particles.velocity,
+            model.spin ? model.spin->angle : std::vector<double>()};
+}
+
+template Motion<2> copy_motion<2>(const Simulation<2>&);
+
+template <int Dim>
+UnbrokenBody<Dim>::UnbrokenBody(const Simulation<Dim>& simulation) : model_(simulation.model()) {
+    std::ranges::fill(model_.bonds.broken_at, Bonds::intact);
+    law_ = make_elastic_law<Dim>(model_, simulation.physics().elasticity);
+}
+
+template <int Dim>
+Snapshot UnbrokenBody<Dim>::snapshot(Motion<Dim> motion) {
+    model_.particles.displacement = std::move(motion.displacement);
+    model_.particles.velocity = std::move(motion.velocity);
+    if (model_.spin) model_.spin->angle = std::move(motion.angle);
+    return make_snapshot(model_, motion.time, motion.step, [&](int i) { return law_->local(model_, i); });
+}
+
+template class UnbrokenBody<2>;
 
 }  // namespace hibi

@@ -32,6 +32,14 @@ std::string last_error() {
 /// Without this HDF5 prints its stack of errors to standard error; the setting belongs to the thread.
 void keep_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+/// Are these numbers, so many bytes apart, zeros bit for bit?
+bool all_zero(const std::uint8_t* numbers, std::size_t stride, std::size_t count, std::size_t size) {
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < size; ++k)
+            if (numbers[i * stride + k] != 0) return false;
+    return true;
+}
+
 HdfHandle properties(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
 
 }  // namespace
@@ -93,12 +101,15 @@ void HdfFile::write(const std::string& name, hid_t type, std::size_t width, std:
 bool HdfFile::write_chunks(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
                            std::size_t chunk_size, const void* data) {
     const auto* bytes = static_cast<const std::uint8_t*>(data);
+    const std::size_t stride = width * number_size;
     PlaneDeflater deflater;
     for (std::size_t row = 0; row < rows; row += chunk_size)
         for (std::size_t c = 0; c < width; ++c) {
-            const auto deflated =
-                deflater.deflate(bytes + (row * width + c) * number_size, width * number_size,
-                                 std::min(chunk_size, rows - row), number_size, chunk_size);
+            const std::uint8_t* numbers = bytes + row * stride + c * number_size;
+            const std::size_t count = std::min(chunk_size, rows - row);
+            // A chunk that is not there reads as zeros.
+            if (all_zero(numbers, stride, count, number_size)) continue;
+            const auto deflated = deflater.deflate(numbers, stride, count, number_size, chunk_size);
             const std::array<hsize_t, 2> place = {row, c};
             if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, place.data(), deflated.size(), deflated.data()) < 0)
                 return false;

@@ -11,9 +11,10 @@ class Context;
     X(ActiveTexture)                                                                                         \
     X(AttachShader)                                                                                          \
     X(BindBuffer)                                                                                            \
-    X(BindFramebuffer) X(BindRenderbuffer) X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate)            \
-        X(BufferData) X(BufferSubData) X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader)     \
-            X(CreateProgram) X(CreateShader) X(DrawArrays) X(Enable) X(Disable) X(Finish)                    \
+    X(BindFramebuffer)                                                                                       \
+    X(BindRenderbuffer) X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate) X(BufferData)                 \
+        X(BufferSubData) X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) X(CreateProgram)  \
+            X(CreateShader) X(DrawArrays) X(DrawElements) X(Enable) X(Disable) X(Finish)                     \
                 X(FramebufferRenderbuffer) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers)              \
                     X(GenTextures) X(GenVertexArrays) X(GetError) X(GetProgramInfoLog) X(GetProgramiv)       \
                         X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram) \

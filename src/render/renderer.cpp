@@ -31,7 +31,7 @@ constexpr double least_line_spacing = 12;
 // How much darker than its particles a body is between them, also where a theme has no rims.
 constexpr float least_gap = 0.2f;
 
-// What the shaders fetch by index, so that bonds need no positions of their own. The six vertices that draw
+// What the shaders fetch by index, so that bonds need no positions of their own. The four vertices that draw
 // one thing are made from their number alone.
 struct DrawnParticle {
     float x, y, half_spacing, value;
@@ -119,6 +119,23 @@ struct Renderer::Impl {
         GLuint no_attributes = 0;  // a core profile draws nothing without an array object
         gl->GenVertexArrays(1, &no_attributes);
         gl->BindVertexArray(no_attributes);
+        gl->GenBuffers(1, &corners);
+        gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, corners);
+    }
+
+    /// Two triangles each, of the four vertices that the shaders make of their numbers 4 k .. 4 k + 3: none
+    /// is worked out twice.
+    void draw_quads(int count) {
+        if (count > quads) {
+            quads = std::max(count, 2 * quads);
+            std::vector<GLuint> order_of_corners;
+            for (GLuint first = 0; first < 4 * static_cast<GLuint>(quads); first += 4)
+                for (const GLuint k : {0u, 1u, 2u, 2u, 1u, 3u}) order_of_corners.push_back(first + k);
+            gl->BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                           static_cast<GLsizeiptr>(order_of_corners.size() * sizeof(GLuint)),
+                           order_of_corners.data(), GL_STATIC_DRAW);
+        }
+        gl->DrawElements(GL_TRIANGLES, 6 * count, GL_UNSIGNED_INT, nullptr);
     }
 
     void describe() {
@@ -229,20 +246,23 @@ struct Renderer::Impl {
             start(*surface);
             surface->set("bonds", bond_table.unit);
             surface->set("gap", std::max(colours.rim, least_gap));
-            gl->DrawArrays(GL_TRIANGLES, 0, 6 * nearest_bonds);
+            draw_quads(nearest_bonds);
         }
 
         const bool squares = spacing + sprite_margin > largest_sprite;
         const int count = static_cast<int>(particles.size());
         start(*particle);
         particle->set("squares", squares);
-        gl->DrawArrays(squares ? GL_TRIANGLES : GL_POINTS, 0, squares ? 6 * count : count);
+        if (squares)
+            draw_quads(count);
+        else
+            gl->DrawArrays(GL_POINTS, 0, count);
 
         if (with_bonds && spacing > least_line_spacing) {
             start(*bond);
             bond->set("bonds", bond_table.unit);
             set(*bond, "colour", colours.bond);
-            gl->DrawArrays(GL_TRIANGLES, 0, 6 * static_cast<int>(bonds.size()));
+            draw_quads(static_cast<int>(bonds.size()));
         }
         if (!picture.broken.empty()) {
             start(*crack);
@@ -252,7 +272,7 @@ struct Renderer::Impl {
             set(*crack, "fresh_colour", colours.crack_fresh);
             set(*crack, "old_colour", colours.crack_old);
             set(*crack, "background", colours.background);
-            gl->DrawArrays(GL_TRIANGLES, 0, 6 * static_cast<int>(cracks.size()));
+            draw_quads(static_cast<int>(cracks.size()));
         }
     }
 
@@ -269,6 +289,8 @@ struct Renderer::Impl {
     std::vector<DrawnBond> bonds, cracks;
     std::vector<CrackState> states;
     std::vector<int> order, uploaded_intact;
+    GLuint corners = 0;
+    int quads = 0;          ///< whose corners the buffer holds
     int nearest_bonds = 0;  ///< the first so many of `bonds`
 
     // The objects below die with the context, so none is deleted by itself.

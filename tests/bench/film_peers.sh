@@ -51,10 +51,10 @@ EOF
 cat > in.cloud <<EOF
 units       si
 dimension   3
-boundary    s s s
+boundary    f f f
 atom_style  atomic
 lattice     sc 0.001
-region      box block 0 $((side - 1)) 0 $((side - 1)) -1 1
+region      box block -1 $side -1 $side -1 1
 create_box  1 box
 region      sheet block 0 $((side - 1)) 0 $((side - 1)) 0 0
 create_atoms 1 region sheet
@@ -65,24 +65,25 @@ pair_style  zero 0.0011 nocoeff
 pair_coeff  * *
 fix         1 all nve
 timestep    1e-12
-dump        1 all image 1 lammps.*.png vx type diameter 0.001 size 1920 1080 view 0 0 zoom 1.6 box no 0.0
+dump        1 all image 1 lammps.*.png vx type adiam 0.001 size 1920 1080 view 0 0 zoom 1.85 box no 0.0
 dump_modify 1 pad 4 first no
 thermo      1000000
 run         $frames
 EOF
 
 cat > cloud.py <<EOF
-import time, sys
-import numpy as np
+import sys
+import time
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 side, frames = $side, $frames
-x, y = np.meshgrid(np.arange(side) * 1e-3, np.arange(side) * 1e-3)
-places = np.stack([x.ravel(), y.ravel(), np.zeros(side * side)], axis=1)
 data = vtk.vtkPolyData()
 points = vtk.vtkPoints()
+points.SetNumberOfPoints(side * side)
+values = vtk.vtkFloatArray()
+values.SetNumberOfTuples(side * side)
 data.SetPoints(points)
+data.GetPointData().SetScalars(values)
 mapper = vtk.vtkPointGaussianMapper()
 mapper.SetInputData(data)
 mapper.SetScaleFactor(0.5e-3)
@@ -108,10 +109,12 @@ grabber.ShouldRerenderOff()
 renderer.GetActiveCamera().ParallelProjectionOn()
 times = []
 for k in range(frames + 1):
-    moved = places * (1 + 1e-3 * k)
-    points.SetData(numpy_to_vtk(moved, deep=True))
-    data.GetPointData().SetScalars(numpy_to_vtk(moved[:, 1].copy(), deep=True))
+    for i in range(side * side):
+        x, y = i % side * 1e-3, i // side * 1e-3 * (1 + 1e-3 * k)
+        points.SetPoint(i, x, y, 0)
+        values.SetValue(i, y)
     points.Modified()
+    values.Modified()
     data.Modified()
     if k == 0:
         renderer.ResetCamera()
