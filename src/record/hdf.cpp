@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include "record/planes.hpp"
@@ -31,6 +32,17 @@ std::string last_error() {
 
 /// Without this HDF5 prints its stack of errors to standard error; the setting belongs to the thread.
 void keep_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+/// Rows of a chunk where chunks are as HdfFile::write makes them, a column each, of numbers of this type;
+/// else 0: files of earlier versions have chunks of whole rows.
+std::size_t column_chunk(hid_t dataset, hid_t type) {
+    const HdfHandle layout(H5Dget_create_plist(dataset), H5Pclose), stored(H5Dget_type(dataset), H5Tclose);
+    std::array<hsize_t, 2> chunk{};
+    const bool columns = H5Pget_layout(layout) == H5D_CHUNKED && H5Pget_nfilters(layout) == 2 &&
+                         H5Pget_chunk(layout, 2, chunk.data()) == 2 && chunk[1] == 1 &&
+                         H5Tequal(stored, type) > 0;
+    return columns ? chunk[0] : 0;
+}
 
 /// Are these numbers, so many bytes apart, zeros bit for bit?
 bool all_zero(const std::uint8_t* numbers, std::size_t stride, std::size_t count, std::size_t size) {
@@ -170,8 +182,40 @@ std::size_t HdfFile::check_rows(hid_t dataset, const std::string& name, std::siz
     return size[0];
 }
 
-void HdfFile::read_dataset(hid_t dataset, const std::string& name, hid_t type, void* data) const {
-    check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "read " + name);
+void HdfFile::read_dataset(hid_t dataset, const std::string& name, hid_t type, std::size_t width,
+                           std::size_t rows, void* data) const {
+    const std::size_t chunk_size = width > 1 ? column_chunk(dataset, type) : 0;
+    const bool good = chunk_size > 0 ? read_columns(dataset, H5Tget_size(type), width, rows, chunk_size, data)
+                                     : H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+    check(good, "read " + name);
+}
+
+/// Past HDF5's own filters: it is slow where it has to put every number of a chunk in a place of its own.
+bool HdfFile::read_columns(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                           std::size_t chunk_size, void* data) {
+    auto* bytes = static_cast<std::uint8_t*>(data);
+    const std::size_t stride = width * number_size;
+    std::vector<std::uint8_t> deflated, planes(chunk_size * number_size);
+    for (std::size_t row = 0; row < rows; row += chunk_size)
+        for (std::size_t c = 0; c < width; ++c) {
+            const std::array<hsize_t, 2> place = {row, c};
+            hsize_t size = 0;
+            unsigned unused_filters = 0;
+            haddr_t address = 0;
+            if (H5Dget_chunk_info_by_coord(dataset, place.data(), &unused_filters, &address, &size) < 0)
+                return false;
+            std::uint8_t* numbers = bytes + row * stride + c * number_size;
+            const std::size_t count = std::min(chunk_size, rows - row);
+            if (size == 0) {  // all zeros
+                for (std::size_t i = 0; i < count; ++i) std::memset(numbers + i * stride, 0, number_size);
+                continue;
+            }
+            deflated.resize(size);
+            if (H5Dread_chunk(dataset, H5P_DEFAULT, place.data(), &unused_filters, deflated.data()) < 0 ||
+                unused_filters != 0 || !inflate_planes(deflated, planes, numbers, stride, count, number_size))
+                return false;
+        }
+    return true;
 }
 
 HdfHandle HdfFile::open_attribute(const std::string& object, const std::string& name) const {

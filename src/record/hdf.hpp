@@ -69,7 +69,7 @@ class HdfFile {
     std::vector<T> read(const std::string& name, std::int64_t rows = -1) const {
         const HdfHandle dataset = open_dataset(name);
         std::vector<T> data(check_rows(dataset, name, HdfEntry<T>::width, rows));
-        read_dataset(dataset, name, HdfEntry<T>::type(), data.data());
+        read_dataset(dataset, name, HdfEntry<T>::type(), HdfEntry<T>::width, data.size(), data.data());
         return data;
     }
     template <class T>
@@ -97,7 +97,10 @@ class HdfFile {
     HdfHandle open_attribute(const std::string& object, const std::string& name) const;
     std::size_t check_rows(hid_t dataset, const std::string& name, std::size_t width,
                            std::int64_t rows) const;
-    void read_dataset(hid_t dataset, const std::string& name, hid_t type, void* data) const;
+    void read_dataset(hid_t dataset, const std::string& name, hid_t type, std::size_t width, std::size_t rows,
+                      void* data) const;
+    static bool read_columns(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                             std::size_t chunk_size, void* data);
     void read_attribute(const std::string& object, const std::string& name, hid_t type, std::size_t count,
                         void* data) const;
 

@@ -18,6 +18,13 @@ void shuffle(const std::uint8_t* numbers, std::size_t stride, std::size_t count,
         for (std::size_t k = 0; k < Size; ++k) planes[k * room + i] = numbers[i * stride + k];
 }
 
+template <std::size_t Size>
+void unshuffle(const std::uint8_t* planes, std::size_t room, std::size_t count, std::uint8_t* numbers,
+               std::size_t stride) {
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < Size; ++k) numbers[i * stride + k] = planes[k * room + i];
+}
+
 /// Would a code that knows how often each byte occurs save next to nothing? By the chance that two bytes are
 /// equal, 1/256 for noise; at this limit it saves a twentieth.
 bool is_noise(std::span<const std::uint8_t> plane) {
@@ -78,6 +85,22 @@ std::span<const std::uint8_t> PlaneDeflater::deflate(const std::uint8_t* numbers
         ::deflate(&z, k + 1 < size ? Z_NO_FLUSH : Z_FINISH);
     }
     return {deflated_.data(), deflated_.size() - z.avail_out};
+}
+
+bool inflate_planes(std::span<const std::uint8_t> deflated, std::span<std::uint8_t> planes,
+                    std::uint8_t* numbers, std::size_t stride, std::size_t count, std::size_t size) {
+    uLongf inflated = planes.size();
+    if (uncompress(planes.data(), &inflated, deflated.data(), deflated.size()) != Z_OK ||
+        inflated != planes.size())
+        return false;
+    const std::size_t room = planes.size() / size;
+    if (size == 8)
+        unshuffle<8>(planes.data(), room, count, numbers, stride);
+    else if (size == 4)
+        unshuffle<4>(planes.data(), room, count, numbers, stride);
+    else
+        unshuffle<1>(planes.data(), room, count, numbers, stride);
+    return true;
 }
 
 }  // namespace hibi

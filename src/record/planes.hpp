@@ -29,4 +29,9 @@ class PlaneDeflater {
     std::vector<std::uint8_t> planes_, deflated_;
 };
 
+/// The way back: `count` numbers of `size` bytes, `stride` bytes apart. `planes` has as many bytes as the
+/// chunk. False where the stream is damaged.
+bool inflate_planes(std::span<const std::uint8_t> deflated, std::span<std::uint8_t> planes,
+                    std::uint8_t* numbers, std::size_t stride, std::size_t count, std::size_t size);
+
 }  // namespace hibi

@@ -61,6 +61,27 @@ TEST(Planes, AColumnOfATableIsTakenAndFilledUpWithZeros) {
     EXPECT_EQ(read_back<float>(bytes, 5), (std::vector<float>{2, 4, 6, 0, 0}));
 }
 
+TEST(Planes, WhatIsReadBackHereIsWhatHdf5Reads) {
+    const std::vector<double> table = smooth(600);  // three columns of 200
+    PlaneDeflater deflater;
+    const auto deflated = deflater.deflate(reinterpret_cast<const std::uint8_t*>(&table[2]),
+                                           3 * sizeof(double), 200, sizeof(double), 256);
+    std::vector<std::uint8_t> planes(256 * sizeof(double));
+    std::vector<double> back(600, 0);
+    ASSERT_TRUE(inflate_planes(deflated, planes, reinterpret_cast<std::uint8_t*>(&back[2]),
+                               3 * sizeof(double), 200, sizeof(double)));
+    const std::vector<double> expected = read_back<double>(deflated, 256);
+    for (std::size_t i = 0; i < 200; ++i) {
+        EXPECT_EQ(back[3 * i + 2], table[3 * i + 2]);
+        EXPECT_EQ(back[3 * i + 2], expected[i]);
+        EXPECT_EQ(back[3 * i], 0);
+    }
+    std::vector<std::uint8_t> damaged(deflated.begin(), deflated.end());
+    damaged[damaged.size() / 2] ^= 1;
+    EXPECT_FALSE(inflate_planes(damaged, planes, reinterpret_cast<std::uint8_t*>(&back[2]),
+                                3 * sizeof(double), 200, sizeof(double)));
+}
+
 TEST(Planes, NoiseIsStoredAndTheRestIsSmall) {
     constexpr std::size_t count = 65'536;
     PlaneDeflater deflater;
