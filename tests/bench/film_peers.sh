@@ -5,7 +5,8 @@
 #     tests/bench/film_peers.sh [HIBI]      default: build/release/hibi
 #
 # Installs nothing. Needs of Debian 12: lammps (lmp); python3-vtk9, and xvfb for it; a peer that is missing is left out.
-# FRAMES=10 and ROUNDS=3 can be set, and KEEP=DIR to keep a picture of each. A frame is
+# FRAMES=10 (of a peer; hibi draws ten times as many) and ROUNDS=3 can be set, and KEEP=DIR to keep a picture of each.
+# A frame is
 #   hibi     interpolating, drawing, reading back, overlay; and in a film: frames as PNG, H.264
 #   VTK      vtkPointGaussianMapper, and reading back; no file
 #   LAMMPS   dump image, one process, a sphere per particle; and PNG
@@ -14,6 +15,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 hibi=$(realpath "${1:-$root/build/release/hibi}")
 frames=${FRAMES:-10} rounds=${ROUNDS:-3}
+film=$((10 * frames))  # so that compiling shaders, once, does not count
 side=316
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -44,7 +46,7 @@ max_time = "10 us"
 [view]
 colour = { field = "displacement", map = "viridis" }
 [movie]
-duration = "$(awk "BEGIN { print $frames / 25 }") s"
+duration = "$(awk "BEGIN { print $film / 25 }") s"
 hold     = "0 s"
 EOF
 
@@ -137,7 +139,7 @@ EOF
 # Milliseconds per frame of the stages of the drawing thread that run.json lists.
 hibi_frame() {
     "$hibi" render run --scene cloud.toml --no-report --profile -q > render.log
-    python3 - "$frames" <<'EOF'
+    python3 - "$film" <<'EOF'
 import json, sys
 run = json.load(open("run/run.json"))
 drawing = ("interpolate", "place symbols", "upload", "draw calls", "rasterise", "read back", "overlay")
