@@ -11,14 +11,11 @@ out float across;                    // from the bond (pixels)
 flat out float half_width;           // (pixels)
 flat out float strength;             // opacity
 
-// Two triangles per bond: the corners -1..1 of vertices 0..5.
-vec2 corner() {
-    int k = int[6](0, 1, 2, 2, 1, 3)[gl_VertexID % 6];
-    return vec2(k & 1, k >> 1) * 2.0 - 1.0;
-}
+// Four vertices per bond: the corners -1..1.
+vec2 corner() { return vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1) * 2.0 - 1.0; }
 
 void main() {
-    ivec2 ends = texelFetch(bonds, gl_VertexID / 6).xy;
+    ivec2 ends = texelFetch(bonds, gl_VertexID >> 2).xy;
     vec2 corner = corner();
     vec4 a = texelFetch(particles, ends.x), b = texelFetch(particles, ends.y);
     vec2 line = b.xy - a.xy;

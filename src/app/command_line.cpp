@@ -122,6 +122,11 @@ void add_threads(Command& command) {
 
 void add_quiet(Command& command, bool& quiet) { command.add_flag("-q,--quiet", quiet, "no progress"); }
 
+void add_profile(Command& command, bool& profile) {
+    command.add_flag("--profile", profile,
+                     "measure how long each stage takes: a table, and \"profile\" in run.json");
+}
+
 void add_run(CLI::App& app, int& status) {
     Command* run = app.add_subcommand("run", "Simulate a scene, draw it and encode the film");
     const auto o = options_of<RunOptions>();
@@ -134,6 +139,7 @@ void add_run(CLI::App& app, int& status) {
     run->add_flag("--json", o->json, "print run.json instead of the table");
     add_drawing(*run, o->draw.renderer);
     add_threads(*run);
+    add_profile(*run, o->profile);
     add_quiet(*run, o->quiet);
     run->callback([o, &status] { status = run_command(*o); });
 }
@@ -147,6 +153,7 @@ void add_render(CLI::App& app, int& status) {
     add_movie(*render, o->draw);
     add_drawing(*render, o->draw.renderer);
     add_threads(*render);
+    add_profile(*render, o->profile);
     add_quiet(*render, o->quiet);
     render->callback([o, &status] { status = render_command(*o); });
 }

@@ -59,9 +59,8 @@ std::vector<Member> read_members(const CompareOptions& options) {
         if (!holds_run(folder))
             throw std::invalid_argument(
                 fmt::format("{} holds no run; a run is made by: hibi run SCENE", folder.string()));
-        Member member{.scene = read_scene(folder / "scene.toml"),
-                      .run = std::make_unique<RunReader>(folder),
-                      .label = {}};
+        Member member{
+            .scene = read_recorded_scene(folder), .run = std::make_unique<RunReader>(folder), .label = {}};
         if (member.run->states().empty())
             throw std::invalid_argument(fmt::format("{} holds no recorded state", folder.string()));
         if (options.align) {

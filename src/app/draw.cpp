@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "app/frame_writer.hpp"
+#include "app/profile.hpp"
 #include "app/run_drawing.hpp"
 #include "image/png.hpp"
 #include "record/leftovers.hpp"
@@ -37,6 +38,9 @@ std::vector<std::string> films(const Scene& scene, const DrawOptions& options) {
 
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
+    const double processor_begin = processor_seconds();
+    StageTimes* const profile = options.renderer.profile;
+    std::optional<TimedStage> preparing(std::in_place, profile, "prepare");
     const RunReader run(folder);
     RunDrawing drawing(scene, run, film_style(scene, run), options.renderer);
     const FilmPlan& plan = drawing.plan();
@@ -52,32 +56,36 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
                         .metadata = {{"title", scene.title}, {"comment", to_comment(provenance)}},
                         .transparent = scene.view.transparent,
                         .background = theme(scene.view.theme).background,
-                        .gif_limit = scene.movie.gif_limit});
-    const auto write_poster = [&](const Image& image) {
-        write_png(folder / "poster.png", image,
-                  {.text = png_text(provenance, plan.time[plan.poster]), .small = true});
-    };
+                        .gif_limit = scene.movie.gif_limit},
+                       profile);
+    const std::filesystem::path poster = folder / "poster.png";
+    preparing.reset();
     for (int k = 0; k < frames; ++k) {
         Image image = writer.take();
         FrameInfo info;
         info.broken = drawing.draw(k, image);
-        if (k == plan.poster) write_poster(image);
         info.file = fmt::format("frames/{:06}.png", k);
         info.time = plan.time[k];
         if (plan.event[k]) info.event = to_string(*plan.event[k]);
         for (const EventName name : plan.events[k]) info.events.push_back(to_string(name));
-        writer.add(std::move(image), std::move(info), png_text(provenance, plan.time[k]));
+        writer.add(std::move(image), std::move(info), png_text(provenance, plan.time[k]),
+                   k == plan.poster ? poster : std::filesystem::path());
         if (options.progress) options.progress(k + 1, frames);
     }
     if (frames == 0) {
         Image image(scene.view.width, scene.view.height);
         drawing.draw(plan.poster, image);
-        write_poster(image);
+        write_png(poster, image, {.text = png_text(provenance, plan.time[plan.poster]), .small = true});
     }
-    const std::vector<FrameInfo> entries = writer.finish();
+    std::vector<FrameInfo> entries;
+    {
+        const TimedStage timed(profile, "finish");
+        entries = writer.finish();
+    }
     if (options.frames) write_frames(folder, entries);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    return {frames, seconds.count(), writer.encode_seconds(), drawing.renderer()};
+    return {frames, seconds.count(), writer.encode_seconds(), processor_seconds() - processor_begin,
+            drawing.renderer()};
 }
 
 }  // namespace hibi

@@ -24,6 +24,7 @@ struct DrawOptions {
 struct DrawResult {
     int frames = 0;
     double draw_seconds = 0, encode_seconds = 0;  ///< wall time; and the encoder's own share
+    double processor_seconds = 0;                 ///< of all threads of the program meanwhile
     std::string renderer;
 };
 

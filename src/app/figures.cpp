@@ -79,8 +79,8 @@ Image cracks_image(const Scene& scene, const RunReader& run, const FigureStyle& 
     return with_scales(drawing.draw(), scales, style);
 }
 
-void draw_figures(const Scene& scene, const fs::path& folder, const RendererOptions& renderer) {
-    const RunReader run(folder);
+void draw_figures(const Scene& scene, const RunReader& run, const RendererOptions& renderer) {
+    const fs::path& folder = run.folder();
     write_figures(scene, run, {.theme = scene.view.theme}, folder, "", renderer);
     fs::create_directories(folder / "figures");
     for (const double width : {85.0, 170.0}) {
@@ -90,7 +90,7 @@ void draw_figures(const Scene& scene, const fs::path& folder, const RendererOpti
 }
 
 int figures_command(const FiguresOptions& options) {
-    const Scene scene = read_scene(options.folder / "scene.toml");
+    const Scene scene = read_recorded_scene(options.folder);
     const RunReader run(options.folder);
     const fs::path output = options.output.value_or(options.folder / "figures");
     fs::create_directories(output);
@@ -110,7 +110,7 @@ int figures_command(const FiguresOptions& options) {
 }
 
 int strip_command(const StripOptions& options) {
-    const Scene scene = read_scene(options.folder / "scene.toml");
+    const Scene scene = read_recorded_scene(options.folder);
     const RunReader run(options.folder);
     const FigureStyle style{.theme = options.theme.empty() ? scene.view.theme : options.theme,
                             .width_mm = options.width_mm};

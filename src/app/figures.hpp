@@ -16,7 +16,7 @@ namespace hibi {
 /// energies) of a recorded run, 170 mm wide at 300 dpi in the scene's theme; and in figures/ the same for
 /// print in both usual widths, NAME_print_85mm.png and so on. Pictures of an earlier drawing are removed
 /// first.
-void draw_figures(const Scene& scene, const std::filesystem::path& folder, const RendererOptions& renderer);
+void draw_figures(const Scene& scene, const RunReader& run, const RendererOptions& renderer);
 
 /// The crack history with its scales.
 Image cracks_image(const Scene& scene, const RunReader& run, const FigureStyle& style,

@@ -16,6 +16,7 @@ struct Job {
     std::size_t index = 0;
     FrameInfo info;
     PngText text;
+    std::filesystem::path poster;
     int uses_left = 0;  // threads that still need the image
 };
 
@@ -23,6 +24,7 @@ struct Job {
 
 struct FrameWriter::Impl {
     std::filesystem::path folder;
+    StageTimes* profile = nullptr;
     std::mutex mutex;  // guards everything below
     std::condition_variable changed;
     std::vector<Image> free;  // pictures nobody uses
@@ -76,13 +78,26 @@ struct FrameWriter::Impl {
     }
 
     void write(Job& job) {
-        job.info.sha256 = pixel_hash(job.image);
-        write_png(folder / job.info.file, job.image, {.text = job.text});
+        {
+            const TimedStage timed(profile, "hash");
+            job.info.sha256 = pixel_hash(job.image);
+        }
+        {
+            const TimedStage timed(profile, "write PNG");
+            write_png(folder / job.info.file, job.image, {.text = job.text});
+        }
+        if (!job.poster.empty()) write_poster(job);
         const std::lock_guard lock(mutex);
         done[job.index] = job.info;
     }
 
+    void write_poster(const Job& job) const {
+        const TimedStage timed(profile, "write poster");
+        write_png(job.poster, job.image, {.text = job.text, .small = true});
+    }
+
     void encode(const Job& job) {
+        const TimedStage timed(profile, "encode");
         const auto begin = std::chrono::steady_clock::now();
         for (const auto& encoder : encoders) encoder->add(job.image);
         encode_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -90,10 +105,11 @@ struct FrameWriter::Impl {
 };
 
 FrameWriter::FrameWriter(std::filesystem::path folder, int workers, const std::vector<std::string>& formats,
-                         const Video& video)
+                         const Video& video, StageTimes* profile)
     : impl_(std::make_unique<Impl>()) {
     Impl& impl = *impl_;
     impl.folder = std::move(folder);
+    impl.profile = profile;
     impl.writes = workers > 0;
     // One being drawn, one per thread at work, and two waiting for each queue.
     impl.free.assign(workers + 6, Image(video.width, video.height));
@@ -110,6 +126,7 @@ FrameWriter::FrameWriter(std::filesystem::path folder, int workers, const std::v
 FrameWriter::~FrameWriter() = default;
 
 Image FrameWriter::take() {
+    const TimedStage timed(impl_->profile, "wait for the writers");
     std::unique_lock lock(impl_->mutex);
     impl_->changed.wait(lock, [&] { return impl_->error || !impl_->free.empty(); });
     impl_->rethrow();
@@ -118,11 +135,13 @@ Image FrameWriter::take() {
     return image;
 }
 
-void FrameWriter::add(Image image, FrameInfo info, PngText text) {
+void FrameWriter::add(Image image, FrameInfo info, PngText text, const std::filesystem::path& poster) {
     const auto job = std::make_shared<Job>();
     job->image = std::move(image);
     job->info = std::move(info);
     job->text = std::move(text);
+    job->poster = poster;
+    if (!poster.empty() && !impl_->writes) impl_->write_poster(*job);
     {
         const std::lock_guard lock(impl_->mutex);
         impl_->rethrow();

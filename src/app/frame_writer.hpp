@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stage_time.hpp"
 #include "film/encoder.hpp"
 #include "image/png.hpp"
 #include "record/run_folder.hpp"
@@ -16,16 +17,18 @@ namespace hibi {
 class FrameWriter {
  public:
     /// movie.EXTENSION for every format; workers = 0: no PNG and no hash.
+    /// `profile` takes what the threads do, and for how long a picture was waited for.
     FrameWriter(std::filesystem::path folder, int workers, const std::vector<std::string>& formats,
-                const Video& video);
+                const Video& video, StageTimes* profile = nullptr);
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 
     /// An image to draw on, waiting for one if need be. Its pixels are those of some earlier frame.
     Image take();
-    /// Frames come in rising order without a gap. The hash of `info` is filled in.
-    void add(Image image, FrameInfo info, PngText text);
+    /// Frames come in rising order without a gap. The hash of `info` is filled in. Where a `poster` is named,
+    /// the frame is that picture, too.
+    void add(Image image, FrameInfo info, PngText text, const std::filesystem::path& poster = {});
     /// Waits for everything; the film gets its name. Entries in the order of the frames.
     std::vector<FrameInfo> finish();
     double encode_seconds() const;  ///< time spent in the encoders; after finish()

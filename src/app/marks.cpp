@@ -15,14 +15,20 @@ namespace {
 constexpr double window_margin = 0.03;  // of the larger side of the body's box
 constexpr double arrow_distance = 34;   // between two arrows of one load, for a picture unit of 1 (pixels)
 
-/// Unit vectors from every particle to its nearest neighbours in the unloaded body.
+/// Unit vectors from every particle that is held or loaded to its nearest neighbours in the unloaded body.
 std::vector<std::vector<Vec3>> nearest_directions(const Topology& topology) {
     std::vector<std::vector<Vec3>> directions(topology.reference_position.size());
+    std::vector<char> wanted(directions.size(), 0);
+    for (const Support& support : topology.supports)
+        for (const int i : support.particles) wanted[i] = 1;
+    for (const LoadMark& load : topology.loads)
+        for (const int i : load.particles) wanted[i] = 1;
     for (const int b : drawn_bonds(topology, "nearest")) {
         const int i = topology.first[b], j = topology.second[b];
+        if (!wanted[i] && !wanted[j]) continue;
         const Vec3 d = (topology.reference_position[j] - topology.reference_position[i]).normalized();
-        directions[i].push_back(d);
-        directions[j].push_back(-d);
+        if (wanted[i]) directions[i].push_back(d);
+        if (wanted[j]) directions[j].push_back(-d);
     }
     return directions;
 }

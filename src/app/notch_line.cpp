@@ -10,6 +10,20 @@ namespace {
 /// Where the sides have parted further (in spacings), the gap itself shows the notch, and a line would float
 /// in it.
 constexpr double widest_opening = 3;
+/// Of a particle from a point of the notch beside which it lies (spacings).
+constexpr double most_distance = 1.5;
+
+/// Particles that may lie beside some point of a notch, in rising order.
+std::vector<int> particles_near(const Topology& topology, const std::array<Vec3, 2>& cut) {
+    const Vec3 along = cut[1] - cut[0];
+    std::vector<int> near;
+    for (int i = 0; i < static_cast<int>(topology.reference_position.size()); ++i) {
+        const Vec3 from = topology.reference_position[i] - cut[0];
+        const double at = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+        if ((from - at * along).norm() <= (most_distance + 1e-6) * topology.spacing[i]) near.push_back(i);
+    }
+    return near;
+}
 
 }  // namespace
 
@@ -21,14 +35,15 @@ std::vector<NotchLine> find_notches(const Topology& topology) {
         NotchLine line;
         const Vec3 along = cut[1] - cut[0], direction = along.normalized();
         const int count = std::max(1, static_cast<int>(std::ceil(along.norm() / step)));
+        const std::vector<int> near = particles_near(topology, cut);
         for (int k = 0; k <= count; ++k) {
             const Vec3 point = cut[0] + along * k / count;
             std::array<int, 2> nearest{-1, -1};
             std::array<double, 2> distance{};
-            for (int i = 0; i < static_cast<int>(topology.reference_position.size()); ++i) {
+            for (const int i : near) {
                 const Vec3 from = topology.reference_position[i] - point;
                 const double far = from.norm();
-                if (far > 1.5 * topology.spacing[i]) continue;
+                if (far > most_distance * topology.spacing[i]) continue;
                 const int side = direction.x() * from.y() - direction.y() * from.x() > 0;
                 if (nearest[side] >= 0 && far >= distance[side]) continue;
                 nearest[side] = i;

@@ -17,8 +17,9 @@ std::vector<int> drawn_bonds(const Topology& topology, const std::string& which)
     return drawn;
 }
 
-PictureSource::PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range)
-    : run_(run), view_(view), range_(range), intact_candidates_(drawn_bonds(run.topology(), view.bonds)) {
+PictureSource::PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range,
+                             StageTimes* profile)
+    : run_(run), view_(view), range_(range), profile_(profile) {
     for (int b = 0; b < static_cast<int>(run.broken_at().size()); ++b)
         if (std::isfinite(run.broken_at()[b])) by_time_of_break_.push_back(b);
     // Fresh cracks are drawn over old ones.
@@ -29,15 +30,21 @@ PictureSource::PictureSource(const RunReader& run, const View& view, const std::
 const PictureSource::Loaded& PictureSource::load(int state, int keep) {
     for (const Loaded& l : loaded_)
         if (l.state == state) return l;
+    const TimedStage timed(profile_, "read states");
     Loaded& free = loaded_[loaded_[0].state == keep ? 1 : 0];
-    const Snapshot snapshot = run_.read(state);
+    const Snapshot snapshot = run_.read(state, {"displacement", scalar_field_source(view_.field)});
     free.value = scalar_field(run_.topology(), snapshot, view_.field);
-    free.displacement = snapshot.displacement;
+    free.x.resize(snapshot.displacement.size());
+    free.y.resize(snapshot.displacement.size());
+    for (std::size_t i = 0; i < snapshot.displacement.size(); ++i) {
+        free.x[i] = snapshot.displacement[i].x();
+        free.y[i] = snapshot.displacement[i].y();
+    }
     free.state = state;
     return free;
 }
 
-Picture2 PictureSource::at(double time) {
+Picture2& PictureSource::at(double time, bool with_intact) {
     const std::vector<StateInfo>& states = run_.states();
     const auto after = std::ranges::upper_bound(states, time, {}, &StateInfo::time) - states.begin();
     const int last = static_cast<int>(states.size()) - 1;
@@ -47,27 +54,47 @@ Picture2 PictureSource::at(double time) {
     const Loaded& a = load(before, next);
     const Loaded& b = share > 0 ? load(next, before) : a;
 
-    Picture2 picture;
+    const TimedStage timed(profile_, "interpolate");
+    interpolate(a, b, share);
+    sort_bonds(time, with_intact);
+    picture_.freshness.assign(picture_.broken.size(), 0);
+    picture_.history.clear();
+    return picture_;
+}
+
+void PictureSource::interpolate(const Loaded& a, const Loaded& b, double share) {
     const std::vector<Vec3>& X = run_.topology().reference_position;
     const std::size_t count = X.size();
+    const double width = range_[1] - range_[0];
     x_.resize(count), y_.resize(count);
-    picture.x.resize(count), picture.y.resize(count), picture.value.resize(count);
+    picture_.x.resize(count), picture_.y.resize(count), picture_.value.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const Vec3 u = a.displacement[i] + share * (b.displacement[i] - a.displacement[i]);
-        x_[i] = X[i].x() + view_.magnify * u.x();
-        y_[i] = X[i].y() + view_.magnify * u.y();
-        picture.x[i] = static_cast<float>(x_[i]);
-        picture.y[i] = static_cast<float>(y_[i]);
+        x_[i] = X[i].x() + view_.magnify * (a.x[i] + share * (b.x[i] - a.x[i]));
+        y_[i] = X[i].y() + view_.magnify * (a.y[i] + share * (b.y[i] - a.y[i]));
+        picture_.x[i] = static_cast<float>(x_[i]);
+        picture_.y[i] = static_cast<float>(y_[i]);
         const double value = a.value[i] + share * (b.value[i] - a.value[i]);
-        const double place = (value - range_[0]) / (range_[1] - range_[0]);
-        picture.value[i] = std::isfinite(place) ? static_cast<float>(std::clamp(place, 0.0, 1.0)) : 0.0f;
+        const double place = (value - range_[0]) / width;
+        picture_.value[i] = std::isfinite(place) ? static_cast<float>(std::clamp(place, 0.0, 1.0)) : 0.0f;
     }
-    for (const int bond : intact_candidates_)
-        if (run_.broken_at()[bond] > time) picture.intact.push_back(bond);
-    for (const int bond : by_time_of_break_)
-        if (run_.broken_at()[bond] <= time) picture.broken.push_back(bond);
-    picture.freshness.resize(picture.broken.size());
-    return picture;
+}
+
+/// Which are broken then. Most pictures show the same bonds as the one before.
+void PictureSource::sort_bonds(double time, bool with_intact) {
+    const std::vector<double>& broken_at = run_.broken_at();
+    const auto first_intact =
+        std::ranges::upper_bound(by_time_of_break_, time, {}, [&](int b) { return broken_at[b]; });
+    picture_.broken.assign(by_time_of_break_.begin(), first_intact);
+    if (!with_intact) {
+        picture_.intact.clear();
+        intact_at_.reset();
+    } else if (intact_at_ != picture_.broken.size()) {
+        if (!intact_candidates_) intact_candidates_ = drawn_bonds(run_.topology(), view_.bonds);
+        picture_.intact.clear();
+        for (const int bond : *intact_candidates_)
+            if (broken_at[bond] > time) picture_.intact.push_back(bond);
+        intact_at_ = picture_.broken.size();
+    }
 }
 
 }  // namespace hibi

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/film_plan.hpp"
+#include "base/stage_time.hpp"
 #include "record/run_folder.hpp"
 #include "render/renderer.hpp"
 
@@ -15,27 +16,36 @@ namespace hibi {
 /// broken_at <= time.
 class PictureSource {
  public:
-    PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range);
+    /// The run is kept as a reference.
+    PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range,
+                  StageTimes* profile = nullptr);
 
-    /// Everything but camera and freshness, which is 0.
-    Picture2 at(double time);
+    /// Everything but camera and freshness, which is 0, and history, which is empty; intact bonds only if
+    /// wanted. It is the caller's until the next call.
+    Picture2& at(double time, bool with_intact = true);
     const std::vector<double>& x() const { return x_; }  ///< of the last picture, particle by particle (m)
     const std::vector<double>& y() const { return y_; }
 
  private:
     struct Loaded {
         int state = -1;
-        std::vector<Vec3> displacement;
+        std::vector<double> x, y;  ///< displacement (m)
         std::vector<float> value;
     };
     const Loaded& load(int state, int keep);
+    void interpolate(const Loaded& before, const Loaded& after, double share);
+    void sort_bonds(double time, bool with_intact);
 
     const RunReader& run_;
     View view_;
     std::array<double, 2> range_;
-    std::vector<int> intact_candidates_, by_time_of_break_;
+    StageTimes* profile_;
+    std::optional<std::vector<int>> intact_candidates_{};  ///< found when they are first wanted
+    std::vector<int> by_time_of_break_;
     Loaded loaded_[2];
     std::vector<double> x_, y_;
+    Picture2 picture_;
+    std::optional<std::size_t> intact_at_{};  ///< number of broken bonds that picture_.intact belongs to
 };
 
 /// Bonds that are drawn while they are intact: none, those of nearest neighbours (rest_length <= 1.01 l0), or

@@ -32,10 +32,12 @@ std::vector<std::int64_t> EvenStates::keep(double time, std::int64_t step) {
     return dropped;
 }
 
-Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer)
+Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer,
+                   StageTimes* profile)
     : simulation_(simulation),
       watch_(watch),
       writer_(writer),
+      profile_(profile),
       most_(2 * std::max<std::size_t>(25, scene.movie.frames() / 2)),  // even; about one state per frame
       tick_(simulation.physics().statics ? simulation.physics().statics->pause() / first_state_steps
                                          : simulation.time_step()),
@@ -72,7 +74,8 @@ void Recorder::look() {
         if (time - last_ring_ < even_.interval() / 4) return;
         last_ring_ = time;
         if (ring_.size() == ring_size) ring_.pop_front();
-        ring_.push_back(take_snapshot(simulation_));
+        const TimedStage timed(profile_, "take states");
+        ring_.push_back(copy_motion(simulation_));
         return;
     }
     if (!failure_) {
@@ -83,7 +86,7 @@ void Recorder::look() {
     if (events.separation && !separation_kept_) {
         separation_kept_ = true;
         failure_end_ = time + (time - events.first_break->time) / 2;
-        write_state(take_snapshot(simulation_));
+        write_now();
     }
     if (time <= failure_end_ && failure_->due(time)) keep(*failure_);
 }
@@ -94,15 +97,36 @@ void Recorder::finish() {
         return;
     }
     if (simulation_.time() > last_row_) write_row();
-    write_state(take_snapshot(simulation_));
+    write_now();
+}
+
+/// One more reason to keep the state of a step: is it recorded already?
+bool Recorder::wanted_already(std::int64_t step) { return ++wanted_[step] > 1; }
+
+void Recorder::write_now() {
+    if (wanted_already(simulation_.steps())) return;
+    std::optional<TimedStage> taking(std::in_place, profile_, "take states");
+    Snapshot state = take_snapshot(simulation_);
+    taking.reset();
+    write_state(std::move(state));
 }
 
 void Recorder::write_ring() {
-    for (Snapshot& s : ring_) write_state(std::move(s));
+    std::erase_if(ring_, [&](const Motion<2>& motion) { return wanted_already(motion.step); });
+    if (ring_.empty()) return;
+    std::optional<TimedStage> taking(std::in_place, profile_, "take states");
+    UnbrokenBody<2> body(simulation_);
+    for (Motion<2>& motion : ring_) {
+        if (!taking) taking.emplace(profile_, "take states");
+        Snapshot state = body.snapshot(std::move(motion));
+        taking.reset();
+        write_state(std::move(state));
+    }
     ring_.clear();
 }
 
 void Recorder::write_row() {
+    const TimedStage timed(profile_, "history");
     const HistoryRow row = watch_.row();
     imbalance_ = row.imbalance;
     last_row_ = row.time;
@@ -110,15 +134,15 @@ void Recorder::write_row() {
 }
 
 void Recorder::keep(EvenStates& series) {
-    write_state(take_snapshot(simulation_));
+    write_now();
     for (const std::int64_t step : series.keep(simulation_.time(), simulation_.steps()))
         if (--wanted_[step] == 0) writer_.drop_state(step);
 }
 
 void Recorder::write_state(Snapshot state) {
-    if (++wanted_[state.step] > 1) return;
     for (const float strain : state.bond_strain)
         largest_strain_ = std::max(largest_strain_, std::abs(static_cast<double>(strain)));
+    const TimedStage timed(profile_, "wait for the writer");
     writer_.state(std::move(state));
 }
 

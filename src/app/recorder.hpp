@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/stage_time.hpp"
 #include "measure/watch.hpp"
 #include "record/run_folder.hpp"
 #include "scene/scene.hpp"
@@ -35,7 +36,8 @@ class EvenStates {
 class Recorder {
  public:
     /// References are kept. The first state and row are recorded at once.
-    Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer);
+    Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer,
+             StageTimes* profile = nullptr);
 
     /// After every step, when the watch has looked.
     void look();
@@ -48,6 +50,8 @@ class Recorder {
     double largest_strain() const { return largest_strain_; }
 
  private:
+    bool wanted_already(std::int64_t step);
+    void write_now();
     void write_row();
     void write_ring();
     void keep(EvenStates& series);
@@ -56,6 +60,7 @@ class Recorder {
     const Simulation<2>& simulation_;
     Watch<2>& watch_;
     RunWriter& writer_;
+    StageTimes* profile_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
     double last_row_ = 0, imbalance_ = 0, largest_strain_ = 0;
     std::size_t most_ = 0;
@@ -71,7 +76,7 @@ class Recorder {
     };
     std::vector<Span> spans_;  ///< slow motion at times known beforehand
     double last_ring_ = 0;
-    std::deque<Snapshot> ring_;  ///< recent states, until first break
+    std::deque<Motion<2>> ring_;  ///< of recent moments, until first break
     bool separation_kept_ = false;
 };
 

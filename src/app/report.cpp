@@ -49,8 +49,8 @@ std::string png_bytes(const Image& image) {
 
 }  // namespace
 
-void write_report(const Scene& scene, const fs::path& folder, const RendererOptions& renderer) {
-    const RunReader run(folder);
+void write_report(const Scene& scene, const RunReader& run, const RendererOptions& renderer) {
+    const fs::path& folder = run.folder();
     const std::string description = describe(scene, run.topology());
     const Caption caption =
         caption_of(run.summary(), run.topology(), scene.about, description + setting(scene));
@@ -87,7 +87,8 @@ void write_report(const Scene& scene, const fs::path& folder, const RendererOpti
     write_file(folder / "report.html", report_page(page));
 
     const std::string label = fs::absolute(folder).lexically_normal().filename().string();
-    write_file(folder / "caption.md", caption_markdown(caption, scene.title) + "\n" + to_html_comment(provenance_of(run.summary())));
+    write_file(folder / "caption.md",
+               caption_markdown(caption, scene.title) + "\n" + to_html_comment(provenance_of(run.summary())));
     fs::create_directories(folder / "snippets");
     write_file(folder / "snippets/figure.tex", latex_snippet(caption, label, film_in(folder)));
     write_file(folder / "snippets/figure.qmd", quarto_snippet(caption, label, film_in(folder)));
@@ -95,7 +96,7 @@ void write_report(const Scene& scene, const fs::path& folder, const RendererOpti
 }
 
 int report_command(const ReportOptions& options) {
-    write_report(read_scene(options.folder / "scene.toml"), options.folder, options.renderer);
+    write_report(read_recorded_scene(options.folder), RunReader(options.folder), options.renderer);
     fmt::print("{}\n", (options.folder / "report.html").string());
     return 0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 
+#include "record/run_folder.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
 
@@ -8,7 +9,7 @@ namespace hibi {
 
 /// report.html, caption.md and snippets/ of a recorded and drawn run; a film is part of the page if there is
 /// one.
-void write_report(const Scene& scene, const std::filesystem::path& folder, const RendererOptions& renderer);
+void write_report(const Scene& scene, const RunReader& run, const RendererOptions& renderer);
 
 struct ReportOptions {
     std::filesystem::path folder;  ///< of the run

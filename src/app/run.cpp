@@ -8,8 +8,10 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <thread>
 
 #include "app/figures.hpp"
+#include "app/profile.hpp"
 #include "app/progress.hpp"
 #include "app/quasi_static.hpp"
 #include "app/recorder.hpp"
@@ -109,11 +111,14 @@ std::string fastest(const Simulation<2>& simulation) {
 
 /// Moves the simulation to its end. Returns why it stopped early, if it did.
 std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, Watch<2>& watch,
-                                 Recorder& recorder, bool quiet) {
+                                 Recorder& recorder, bool quiet, StageTimes* profile) {
     Progress progress("solving", "steps", quiet);
     while (!reached_end(scene, watch, simulation.time())) {
         simulation.step();
-        watch.look();
+        {
+            const TimedStage timed(profile, "watch");
+            watch.look();
+        }
         if (simulation.failure()) return simulation.failure()->message;
         if (simulation.collapse()) {
             recorder.look();
@@ -179,7 +184,8 @@ std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simul
                                        format_si(scene.run.max_time, "s")));
             if (event == EventName::separation && events.first_break) {
                 list.back() +=
-                    ": what is loaded still hangs together with what is held, by one bond at least; raise the "
+                    ": what is loaded still hangs together with what is held, by one bond at least; raise "
+                    "the "
                     "load or max_time, or let [run] until be another moment";
                 if (scene.damping && (!scene.damping->until || !scene.damping->until->event ||
                                       scene.damping->until->event == EventName::separation))
@@ -206,14 +212,36 @@ void draw_with_progress(const Scene& scene, const fs::path& folder, DrawOptions 
     summary.frames = drawn.frames;
     summary.fps = drawn.frames > 0 ? scene.movie.fps : 0;
     summary.seconds["draw"] = drawn.draw_seconds;
+    summary.seconds["draw_processor"] = drawn.processor_seconds;
     summary.seconds["encode"] = drawn.encode_seconds;
+    if (options.renderer.profile) summary.profile["draw"] = options.renderer.profile->list();
+    options.renderer.profile = nullptr;  // what follows draws no frames
     if (!options.report) return;
     const Stopwatch figures;
-    draw_figures(scene, folder, options.renderer);
     // The report reads there what is said of the film.
     if (fs::exists(folder / "run.json")) write_summary(folder, summary);
-    write_report(scene, folder, options.renderer);
+    const RunReader run(folder);
+    draw_figures(scene, run, options.renderer);
+    write_report(scene, run, options.renderer);
     summary.seconds["figures"] = figures.seconds();
+}
+
+/// What was measured of the run, and of the drawing where there was one.
+void print_profile(const RunSummary& s, bool drawn) {
+    std::string text;
+    if (const auto run = s.profile.find("run"); run != s.profile.end())
+        text += "\n" + profile_table("run", run->second, s.seconds.at("setup") + s.seconds.at("solve"));
+    if (const auto draw = s.profile.find("draw"); drawn && draw != s.profile.end()) {
+        const double wall = s.seconds.at("draw"), processor = s.seconds.at("draw_processor");
+        text += "\n" + profile_table("draw", draw->second, wall);
+        const double frames = std::max(1, s.frames);
+        const unsigned cores = std::thread::hardware_concurrency();
+        text += fmt::format(
+            "{} frames of {:.1f} ms, {:.1f} ms of processor time each: {:.0f} % of {} cores\n", s.frames,
+            1000 * wall / frames, 1000 * processor / frames, 100 * processor / (wall * cores), cores);
+    }
+    fmt::print("{}", text);
+    std::fflush(stdout);
 }
 
 std::string event_line(const char* name, const std::optional<Event>& event, bool loaded, bool with_place) {
@@ -312,8 +340,14 @@ int run_command(const RunOptions& options) {
     refuse_other_scene(folder, options);
     note_plain_numbers(options);
     Built<2> built = build(scene);
-    const Topology topology = topology_of(scene, built);
+    Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
+    std::vector<std::string> stages = simulation.stage_names();
+    stages.insert(stages.begin(), "setup");
+    stages.insert(stages.end(), {"watch", "take states", "history", "wait for the writer", "write states"});
+    StageTimes times(stages);
+    StageTimes* const profile = options.profile ? &times : nullptr;
+    simulation.profile(profile);
     Watch<2> watch(simulation);
     require_separable(scene, watch);
     require_steps_that_end(scene, simulation);
@@ -332,9 +366,9 @@ int run_command(const RunOptions& options) {
     summary.time_step = simulation.time_step();
     summary.stopped = "it is still running, or was killed";
     summary.trusted = false;
-    RunWriter writer(folder, to_comment(provenance_of(summary)));
+    RunWriter writer(folder, to_comment(provenance_of(summary)), profile);
     writer.scene(write_scene(scene));
-    writer.topology(topology);
+    writer.topology(std::move(topology));
     write_summary(folder, summary);
     summary.seconds["setup"] = total.seconds();
 
@@ -342,10 +376,15 @@ int run_command(const RunOptions& options) {
         fmt::print(stderr, "{}: {} particles, {} bonds, {} step {}\n", scene.title, summary.particles,
                    summary.bonds, scene.run.statics ? "load" : "time", format_si(summary.time_step, "s"));
     const Stopwatch solving;
-    Recorder recorder(scene, simulation, watch, writer);
-    summary.stopped = solve(scene, simulation, watch, recorder, options.quiet);
+    Recorder recorder(scene, simulation, watch, writer, profile);
+    summary.stopped = solve(scene, simulation, watch, recorder, options.quiet, profile);
     recorder.finish();
+    writer.drain();
     summary.seconds["solve"] = solving.seconds();
+    if (profile) {
+        times.add("setup", summary.seconds["setup"]);
+        summary.profile["run"] = times.list();
+    }
     summary.broken = simulation.broken();
     summary.steps = simulation.steps();
     summary.end_time = simulation.time();
@@ -368,7 +407,10 @@ int run_command(const RunOptions& options) {
     }
 
     if (options.pictures) {
-        draw_with_progress(scene, folder, options.draw, options.quiet, summary);
+        DrawOptions draw = options.draw;
+        StageTimes draw_times = drawing_stages();
+        if (profile) draw.renderer.profile = &draw_times;
+        draw_with_progress(scene, folder, draw, options.quiet, summary);
         summary.seconds["total"] = total.seconds();
         write_summary(folder, summary);
     }
@@ -379,13 +421,14 @@ int run_command(const RunOptions& options) {
         fmt::print("{}", std::string(std::istreambuf_iterator<char>(json), {}));
     } else {
         print_results(summary, folder, options);
+        if (profile) print_profile(summary, options.pictures);
     }
     return summary.trusted ? 0 : 4;
 }
 
 int render_command(const RenderOptions& options) {
     const fs::path& folder = options.folder;
-    const Scene scene = read_scene(options.scene.value_or(folder / "scene.toml"));
+    const Scene scene = options.scene ? read_scene(*options.scene) : read_recorded_scene(folder);
     const bool summarised = fs::exists(folder / "run.json");  // a killed run may lack it
     RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
     DrawOptions draw = options.draw;
@@ -396,9 +439,15 @@ int render_command(const RenderOptions& options) {
             draw.command.insert(draw.command.end(),
                                 {"--formats", fmt::format("{}", fmt::join(draw.formats, ","))});
     }
+    StageTimes times = drawing_stages();
+    if (options.profile) draw.renderer.profile = &times;
     draw_with_progress(scene, folder, draw, options.quiet, summary);
     if (summarised) write_summary(folder, summary);
     fmt::print("{}\n", made(folder, true, options.draw));
+    if (options.profile) {
+        summary.profile.erase("run");
+        print_profile(summary, true);
+    }
     return 0;
 }
 

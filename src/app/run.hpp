@@ -17,6 +17,7 @@ struct RunOptions {
     bool force = false;    ///< overwrite the run of another scene
     bool quiet = false;    ///< no progress
     bool json = false;     ///< print run.json instead of the table
+    bool profile = false;  ///< measure how long each stage takes
     DrawOptions draw{};
 };
 
@@ -41,6 +42,7 @@ struct RenderOptions {
     std::filesystem::path folder;
     std::optional<std::filesystem::path> scene{};  ///< of [view] and [movie]; absent: as recorded
     bool quiet = false;
+    bool profile = false;  ///< measure how long each stage takes
     DrawOptions draw{};
 };
 

@@ -71,10 +71,11 @@ DrawingStyle film_style(const Scene& scene, const RunReader& run) {
 RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
                        const RendererOptions& options)
     : run_(run),
+      profile_(options.profile),
       style_(std::move(style)),
       until_(run.summary().events.separation ? run.summary().events.separation->time
                                              : std::numeric_limits<double>::infinity()),
-      source_(run, style_.view, style_.range),
+      source_(run, style_.view, style_.range, options.profile),
       overlay_(style_.view, content(scene)),
       renderer_(style_.view, run.topology(), options),
       marks_(find_marks(run.topology(), style_.view.shows("supports"), style_.view.shows("loads"))),
@@ -102,7 +103,7 @@ int RunDrawing::draw(int frame, Image& image) {
 int RunDrawing::draw_at(double time, Image& image) { return draw(time, plan().map.film(time), {}, image); }
 
 int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& image) {
-    Picture2 picture = source_.at(time);
+    Picture2& picture = source_.at(time, renderer_.shows_bonds(camera_));
     picture.camera = camera_;
     const std::vector<double>& broken_at = run_.broken_at();
     if (style_.history) {
@@ -120,17 +121,23 @@ int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& im
     over.load = load_at(run_.history(), time);
     over.broken = static_cast<int>(picture.broken.size());
     over.pixels_per_metre = camera_.scale;
+    place_symbols(time, over);
+    draw_on_background(style_.view, image, [&](const Rgb& background, Image& on) {
+        renderer_.draw(picture, background, on);
+        const TimedStage timed(profile_, "overlay");
+        overlay_.draw(on, over);
+    });
+    return over.broken;
+}
+
+void RunDrawing::place_symbols(double time, OverlayFrame& over) const {
+    const TimedStage timed(profile_, "place symbols");
     for (const Mark& mark : marks_) {
         const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
         over.symbols.push_back(place_mark(mark, source_.x(), source_.y(), camera_, size, unit_));
     }
     for (const NotchLine& notch : notches_)
         over.symbols.push_back(place_notch(notch, run_.topology(), source_.x(), source_.y(), camera_));
-    draw_on_background(style_.view, image, [&](const Rgb& background, Image& on) {
-        renderer_.draw(picture, background, on);
-        overlay_.draw(on, over);
-    });
-    return over.broken;
 }
 
 /// The window of the user's, or the body in all states that count, with its symbols at some of them.
@@ -140,16 +147,20 @@ Camera2 RunDrawing::camera() {
     if (const auto& w = view.window) return Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], plot);
     std::vector<Reserved> reserved;
     const int last = last_counting_state(run_);
-    const std::vector<double> loose = loose_since(run_);
+    const std::vector<double>& loose = loose_since(run_);
+    std::vector<double> x(loose.size()), y(loose.size());  // of the marks' particles
     constexpr int samples = 16;
     for (int k = 0; k <= samples && !marks_.empty(); ++k) {
-        const double time = run_.states()[last * k / samples].time;
-        source_.at(time);
+        const int state = last * k / samples;
+        const double time = run_.states()[state].time;
+        for (const auto& [i, u] : displaced_marks(run_, state)) {
+            x[i] = run_.topology().reference_position[i].x() + view.magnify * u.x();
+            y[i] = run_.topology().reference_position[i].y() + view.magnify * u.y();
+        }
         for (const Mark& mark : marks_) {
             if (std::ranges::any_of(mark.particles, [&](int i) { return loose[i] <= time; })) continue;
             const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
-            for (const Reserved& r : reserve(mark, source_.x(), source_.y(), size, view))
-                reserved.push_back(r);
+            for (const Reserved& r : reserve(mark, x, y, size, view)) reserved.push_back(r);
         }
     }
     return camera_for(style_.window.value_or(body_window(run_, view)), reserved, plot);

@@ -47,11 +47,13 @@ class RunDrawing {
 
  private:
     int draw(double time, double film_time, OverlayFrame over, Image& image);
+    void place_symbols(double time, OverlayFrame& over) const;
     double load_size(int load, double time) const;
     OverlayContent content(const Scene& scene) const;
     Camera2 camera();
 
     const RunReader& run_;
+    StageTimes* profile_;
     DrawingStyle style_;
     double until_;  ///< of what counts: separation, or infinity (s)
     PictureSource source_;

@@ -262,7 +262,7 @@ void write_sheet(const std::vector<StudyRun>& runs, const fs::path& folder, cons
     for (const StudyRun& study : runs) {
         Panel panel{.image = {}, .label = study.label(), .detail = "failed: " + study.error};
         if (study.done()) {
-            const Scene scene = read_scene(fs::path(study.folder) / "scene.toml");
+            const Scene scene = read_recorded_scene(study.folder);
             const RunReader run(study.folder);
             const FilmPlan plan = film_style(scene, run).plan;
             panel.image = StillDrawing(scene, run, style.theme, width, style.text(), renderer)

@@ -1,5 +1,7 @@
 #include "app/whole_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -41,46 +43,65 @@ int last_counting_state(const RunReader& run) {
     return last;
 }
 
-std::vector<double> loose_since(const RunReader& run) {
-    // From the end backwards, every broken bond joins two pieces again.
+namespace {
+
+/// Particles in pieces, each a ring through `next` with its size at its root: joining two takes no time.
+struct Pieces {
+    std::vector<int> root, next, size;
+
+    explicit Pieces(int count) : root(count), next(count), size(count, 1) {
+        for (int i = 0; i < count; ++i) root[i] = next[i] = i;
+    }
+    int of(int i) {
+        while (root[i] != i) i = root[i] = root[root[i]];
+        return i;
+    }
+    void join(int p, int q) {
+        if (size[p] < size[q]) std::swap(p, q);
+        root[q] = p;
+        size[p] += size[q];
+        std::swap(next[p], next[q]);
+    }
+    template <class Visit>
+    void each_of(int p, Visit&& visit) const {
+        int i = p;
+        do visit(i);
+        while ((i = next[i]) != p);
+    }
+};
+
+std::vector<double> find_loose(const RunReader& run) {
+    constexpr double never = std::numeric_limits<double>::infinity();
     const Topology& topology = run.topology();
     const int count = static_cast<int>(topology.spacing.size());
-    const double least = least_piece * count;
-    constexpr double never = std::numeric_limits<double>::infinity(), small_at_the_end = -1;
     std::vector<double> loose(count, never);
-    std::vector<int> piece(count);
-    std::vector<std::vector<int>> members(count);
-    for (int i = 0; i < count; ++i) piece[i] = i, members[i] = {i};
-    const auto small = [&](int p) { return static_cast<double>(members[p].size()) < least; };
-    const auto join = [&](int bond, double time) {
-        int p = piece[topology.first[bond]], q = piece[topology.second[bond]];
-        if (p == q) return;
-        if (members[p].size() < members[q].size()) std::swap(p, q);
-        const std::size_t before = members[p].size();
-        const bool was_small = small(p), other_small = small(q);
-        for (const int i : members[q]) piece[i] = p;
-        members[p].insert(members[p].end(), members[q].begin(), members[q].end());
-        members[q].clear();
-        if (small(p)) return;
-        for (std::size_t k = was_small ? 0 : before; k < (other_small ? members[p].size() : before); ++k)
-            loose[members[p][k]] = time;
-    };
     std::vector<int> broken;
+    for (int b = 0; b < static_cast<int>(topology.first.size()); ++b)
+        if (run.broken_at()[b] != never) broken.push_back(b);
+    if (broken.empty()) return loose;
+
+    // From the end backwards, every broken bond joins two pieces again.
+    const double least = least_piece * count;
+    Pieces pieces(count);
     for (int b = 0; b < static_cast<int>(topology.first.size()); ++b) {
-        if (run.broken_at()[b] == never)
-            join(b, never);
-        else
-            broken.push_back(b);
+        if (run.broken_at()[b] != never) continue;
+        const int p = pieces.of(topology.first[b]), q = pieces.of(topology.second[b]);
+        if (p != q) pieces.join(p, q);
     }
-    for (int i = 0; i < count; ++i)
-        if (small(piece[i])) loose[i] = small_at_the_end;
     std::ranges::sort(broken, std::greater{}, [&](int b) { return run.broken_at()[b]; });
-    for (const int b : broken) join(b, run.broken_at()[b]);
-    std::ranges::replace(loose, small_at_the_end, never);  // it was small before the run, too
+    for (const int b : broken) {
+        const int p = pieces.of(topology.first[b]), q = pieces.of(topology.second[b]);
+        if (p == q) continue;
+        if (pieces.size[p] + pieces.size[q] >= least)
+            for (const int piece : {p, q})
+                if (pieces.size[piece] < least)
+                    pieces.each_of(piece, [&](int i) { loose[i] = run.broken_at()[b]; });
+        pieces.join(p, q);
+    }
     return loose;
 }
 
-std::array<double, 4> body_window(const RunReader& run, const View& view) {
+std::array<double, 4> find_window(const RunReader& run, const View& view) {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::array<double, 4> box{far, far, -far, -far};
     const Topology& topology = run.topology();
@@ -90,7 +111,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
     constexpr int most_read = 48;
     const int last = last_counting_state(run);
     const double end = run.states()[last].time;
-    const std::vector<double> loose = loose_since(run);
+    const std::vector<double>& loose = loose_since(run);
     const bool extents_do =
         view.magnify == 1 && std::ranges::none_of(loose, [&](double since) { return since <= end; });
     const int stride = extents_do ? 1 : std::max(1, last / most_read);
@@ -101,7 +122,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
             include(box, extent.high.x(), extent.high.y());
             continue;
         }
-        const Snapshot snapshot = run.read(s);
+        const Snapshot snapshot = run.read(s, {"displacement"});
         for (int i = 0; i < snapshot.count(); ++i) {
             if (snapshot.time >= loose[i]) continue;
             const Vec3 p = topology.reference_position[i] + view.magnify * snapshot.displacement[i];
@@ -116,6 +137,37 @@ std::array<double, 4> body_window(const RunReader& run, const View& view) {
     }
     const double radius = largest_spacing(topology) / 2;
     return {box[0] - radius, box[1] - radius, box[2] + radius, box[3] + radius};
+}
+
+/// With repetitions where a particle is both held and loaded.
+std::vector<int> marked_particles(const Topology& topology) {
+    std::vector<int> marked;
+    for (const Support& s : topology.supports)
+        marked.insert(marked.end(), s.particles.begin(), s.particles.end());
+    for (const LoadMark& l : topology.loads)
+        marked.insert(marked.end(), l.particles.begin(), l.particles.end());
+    return marked;
+}
+
+}  // namespace
+
+const std::vector<double>& loose_since(const RunReader& run) {
+    return run.once<std::vector<double>>("loose_since", [&] { return find_loose(run); });
+}
+
+std::array<double, 4> body_window(const RunReader& run, const View& view) {
+    return run.once<std::array<double, 4>>(fmt::format("body_window {}", view.magnify),
+                                           [&] { return find_window(run, view); });
+}
+
+const std::vector<std::pair<int, Vec3>>& displaced_marks(const RunReader& run, int state) {
+    using Places = std::vector<std::pair<int, Vec3>>;
+    return run.once<Places>(fmt::format("displaced_marks {}", state), [&] {
+        const std::vector<Vec3> u = run.read(state, {"displacement"}).displacement;
+        Places places;
+        for (const int i : marked_particles(run.topology())) places.emplace_back(i, u[i]);
+        return places;
+    });
 }
 
 std::array<double, 2> colour_range(const RunReader& run, const std::string& field, bool symmetric) {

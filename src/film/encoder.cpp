@@ -69,6 +69,7 @@ class VideoEncoder : public Encoder {
                             video.width, video.height));
         transparent = video.transparent && format.transparent != AV_PIX_FMT_NONE;
         const AVPixelFormat pixels = transparent ? format.transparent : format.opaque;
+        has_alpha = pixels != AV_PIX_FMT_YUV420P && pixels != AV_PIX_FMT_RGB24;
         AVCodecContext& codec = stream.codec(format.codec, video.width, video.height, pixels, {video.fps, 1});
         codec.gop_size = video.fps;  // a second: a player finds any place at once
         codec.thread_count = video.threads;
@@ -94,12 +95,7 @@ class VideoEncoder : public Encoder {
     void add(const Image& image) override {
         // The encoder may still hold the last frame's memory.
         stream.check(av_frame_make_writable(frame.get()), "reserve memory");
-        straight.resize(image.bgra.size());
-        if (image.transparent && !transparent)
-            to_straight(laid_on(image, video.background), straight.data());
-        else
-            to_straight(image, straight.data(), video.background);
-        const std::uint8_t* from[] = {straight.data()};
+        const std::uint8_t* from[] = {pixels_of(image)};
         const int from_stride[] = {4 * video.width};
         sws_scale(scaler.get(), from, from_stride, 0, video.height, frame->data, frame->linesize);
         frame->pts = frames++;
@@ -116,6 +112,18 @@ class VideoEncoder : public Encoder {
     }
 
  private:
+    /// B, G, R, alpha, not multiplied by alpha.
+    const std::uint8_t* pixels_of(const Image& image) {
+        // Without alpha in the film nobody looks at the fourth byte.
+        if (!image.transparent && !has_alpha) return image.bgra.data();
+        straight.resize(image.bgra.size());
+        if (image.transparent && !transparent)
+            to_straight(laid_on(image, video.background), straight.data());
+        else
+            to_straight(image, straight.data(), video.background);
+        return straight.data();
+    }
+
     bool is_mp4() const { return file.extension() == ".mp4"; }
 
     void make_scaler(AVPixelFormat pixels) {
@@ -134,6 +142,7 @@ class VideoEncoder : public Encoder {
     Video video;
     FilmStream stream;
     bool transparent = false;
+    bool has_alpha = true;  ///< the pixels of the film
     std::int64_t frames = 0;
     std::vector<std::uint8_t> straight;
     FramePtr frame;

@@ -32,16 +32,27 @@ double von_mises(const Stress& s) {
     return std::sqrt(normal / 2 + 3 * (xy * xy + yz * yz + xz * xz));
 }
 
-using Value = std::function<double(const Topology&, const Snapshot&, int)>;
+using Values = std::function<std::vector<float>(const Topology&, const Snapshot&)>;
 
 struct Entry {
     std::string name;
     FieldLabel label;
-    Value value;
+    std::string source;  ///< the array of a snapshot it is made of
+    Values values;
 };
 
-Value stress_component(int component) {
-    return [component](const Topology&, const Snapshot& s, int i) { return s.stress[i][component]; };
+/// The values of a whole field from those of one particle: called once per field, not once per particle.
+template <class Value>
+Values of_each(Value value) {
+    return [value](const Topology& t, const Snapshot& s) {
+        std::vector<float> values(s.count());
+        for (int i = 0; i < s.count(); ++i) values[i] = static_cast<float>(value(t, s, i));
+        return values;
+    };
+}
+
+Values stress_component(int component) {
+    return of_each([component](const Topology&, const Snapshot& s, int i) { return s.stress[i][component]; });
 }
 
 /// The one list of fields that can be coloured: a new one is one entry.
@@ -49,27 +60,35 @@ const std::vector<Entry>& entries() {
     using T = const Topology&;
     using S = const Snapshot&;
     static const std::vector<Entry> list = {
-        {"displacement", {"Displacement", "m"}, [](T, S s, int i) { return s.displacement[i].norm(); }},
-        {"displacement_x",
-         {"Displacement x", "m", true},
-         [](T, S s, int i) { return s.displacement[i].x(); }},
-        {"displacement_y",
-         {"Displacement y", "m", true},
-         [](T, S s, int i) { return s.displacement[i].y(); }},
-        {"velocity", {"Velocity", "m/s"}, [](T, S s, int i) { return s.velocity[i].norm(); }},
-        {"bond_strain", {"Bond strain", "", true}, [](T, S s, int i) { return s.bond_strain[i]; }},
-        {"stress_xx", {"Stress xx", "Pa", true}, stress_component(0)},
-        {"stress_yy", {"Stress yy", "Pa", true}, stress_component(1)},
-        {"stress_xy", {"Stress xy", "Pa", true}, stress_component(3)},
-        {"principal_stress",
-         {"Largest principal stress", "Pa", true},
-         [](T t, S s, int i) { return largest_principal(s.stress[i], t.dimension); }},
-        {"von_mises", {"von Mises stress", "Pa"}, [](T, S s, int i) { return von_mises(s.stress[i]); }},
-        {"pressure",
-         {"Pressure", "Pa", true},
-         [](T, S s, int i) { return -(double(s.stress[i][0]) + s.stress[i][1] + s.stress[i][2]) / 3; }},
-        {"damage", {"Damage", ""}, [](T, S s, int i) { return s.damage[i]; }},
-        {"energy", {"Elastic energy", "J"}, [](T, S s, int i) { return s.energy[i]; }},
+        {"displacement", {"Displacement", "m"}, "displacement", of_each([](T, S s, int i) {
+             return s.displacement[i].norm();
+         })},
+        {"displacement_x", {"Displacement x", "m", true}, "displacement", of_each([](T, S s, int i) {
+             return s.displacement[i].x();
+         })},
+        {"displacement_y", {"Displacement y", "m", true}, "displacement", of_each([](T, S s, int i) {
+             return s.displacement[i].y();
+         })},
+        {"velocity", {"Velocity", "m/s"}, "velocity", of_each([](T, S s, int i) {
+             return s.velocity[i].norm();
+         })},
+        {"bond_strain", {"Bond strain", "", true}, "bond_strain", of_each([](T, S s, int i) {
+             return s.bond_strain[i];
+         })},
+        {"stress_xx", {"Stress xx", "Pa", true}, "stress", stress_component(0)},
+        {"stress_yy", {"Stress yy", "Pa", true}, "stress", stress_component(1)},
+        {"stress_xy", {"Stress xy", "Pa", true}, "stress", stress_component(3)},
+        {"principal_stress", {"Largest principal stress", "Pa", true}, "stress", of_each([](T t, S s, int i) {
+             return largest_principal(s.stress[i], t.dimension);
+         })},
+        {"von_mises", {"von Mises stress", "Pa"}, "stress", of_each([](T, S s, int i) {
+             return von_mises(s.stress[i]);
+         })},
+        {"pressure", {"Pressure", "Pa", true}, "stress", of_each([](T, S s, int i) {
+             return -(double(s.stress[i][0]) + s.stress[i][1] + s.stress[i][2]) / 3;
+         })},
+        {"damage", {"Damage", ""}, "damage", of_each([](T, S s, int i) { return s.damage[i]; })},
+        {"energy", {"Elastic energy", "J"}, "energy", of_each([](T, S s, int i) { return s.energy[i]; })},
     };
     return list;
 }
@@ -92,11 +111,10 @@ const std::vector<std::string>& scalar_field_names() {
 }
 
 std::vector<float> scalar_field(const Topology& topology, const Snapshot& snapshot, const std::string& name) {
-    const Value& value = entry(name).value;
-    std::vector<float> values(snapshot.count());
-    for (int i = 0; i < snapshot.count(); ++i) values[i] = static_cast<float>(value(topology, snapshot, i));
-    return values;
+    return entry(name).values(topology, snapshot);
 }
+
+const std::string& scalar_field_source(const std::string& name) { return entry(name).source; }
 
 FieldLabel field_label(const std::string& name) { return entry(name).label; }
 

@@ -179,20 +179,21 @@ float single(double value) {
     return static_cast<float>(std::clamp(value, -largest, largest));
 }
 
-/// (L - L0) / L0 from (L^2 - L0^2) / L0^2.
-double strain(double growth) { return growth / (1 + std::sqrt(1 + growth)); }
+/// (L - L0) / L0 from (L^2 - L0^2) / L0^2; infinite at worst.
+double strain(double growth) {
+    const double ratio = std::sqrt(1 + growth);
+    return growth < 1 ? growth / (1 + ratio) : ratio - 1;
+}
 
-}  // namespace
-
-template <int Dim>
-Snapshot take_snapshot(const Simulation<Dim>& simulation) {
-    const Model<Dim>& model = simulation.model();
+/// `local_states(begin, end)` gives the states of a block of particles.
+template <int Dim, class Local>
+Snapshot make_snapshot(const Model<Dim>& model, double time, std::int64_t step, Local&& local_states) {
     const Particles<Dim>& particles = model.particles;
     const Bonds& bonds = model.bonds;
     const int n = particles.count();
     Snapshot s;
-    s.time = simulation.time();
-    s.step = simulation.steps();
+    s.time = time;
+    s.step = step;
     s.displacement.resize(n);
     s.velocity.resize(n);
     if (model.spin) s.angle = model.spin->angle;
@@ -206,7 +207,7 @@ Snapshot take_snapshot(const Simulation<Dim>& simulation) {
     s.energy.resize(n);
     s.stress.resize(n);
     parallel_for(n, [&](int begin, int end) {
-        const std::vector<LocalState<Dim>> locals = simulation.local(begin, end);
+        const std::vector<LocalState<Dim>> locals = local_states(begin, end);
         for (int i = begin; i < end; ++i) {
             s.displacement[i] = to_3d<Dim>(particles.displacement[i]);
             s.velocity[i] = to_3d<Dim>(particles.velocity[i]);
@@ -247,6 +248,41 @@ Snapshot take_snapshot(const Simulation<Dim>& simulation) {
     return s;
 }
 
+}  // namespace
+
+template <int Dim>
+Snapshot take_snapshot(const Simulation<Dim>& simulation) {
+    return make_snapshot(simulation.model(), simulation.time(), simulation.steps(),
+                         [&](int begin, int end) { return simulation.local(begin, end); });
+}
+
 template Snapshot take_snapshot<2>(const Simulation<2>&);
+
+template <int Dim>
+Motion<Dim> copy_motion(const Simulation<Dim>& simulation) {
+    const Model<Dim>& model = simulation.model();
+    return {simulation.time(), simulation.steps(), model.particles.displacement, model.particles.velocity,
+            model.spin ? model.spin->angle : std::vector<double>()};
+}
+
+template Motion<2> copy_motion<2>(const Simulation<2>&);
+
+template <int Dim>
+UnbrokenBody<Dim>::UnbrokenBody(const Simulation<Dim>& simulation) : model_(simulation.model()) {
+    std::ranges::fill(model_.bonds.broken_at, Bonds::intact);
+    law_ = make_elastic_law<Dim>(model_, simulation.physics().elasticity);
+}
+
+template <int Dim>
+Snapshot UnbrokenBody<Dim>::snapshot(Motion<Dim> motion) {
+    model_.particles.displacement = std::move(motion.displacement);
+    model_.particles.velocity = std::move(motion.velocity);
+    if (model_.spin) model_.spin->angle = std::move(motion.angle);
+    parallel_for(model_.particles.count(), [&](int begin, int end) { law_->displaced(model_, begin, end); });
+    return make_snapshot(model_, motion.time, motion.step,
+                         [&](int begin, int end) { return law_->local(model_, begin, end); });
+}
+
+template class UnbrokenBody<2>;
 
 }  // namespace hibi

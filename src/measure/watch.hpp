@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -79,5 +80,33 @@ template <int Dim>
 Snapshot take_snapshot(const Simulation<Dim>& simulation);
 
 extern template Snapshot take_snapshot<2>(const Simulation<2>&);
+
+/// What a snapshot is derived from. Copying it takes far less time than deriving a snapshot.
+template <int Dim>
+struct Motion {
+    double time = 0;                                ///< (s)
+    std::int64_t step = 0;
+    std::vector<Vec<Dim>> displacement, velocity;   ///< (m), (m/s)
+    std::vector<double> angle;                      ///< thesis variant only, else empty (rad)
+};
+template <int Dim>
+Motion<Dim> copy_motion(const Simulation<Dim>& simulation);
+
+extern template Motion<2> copy_motion<2>(const Simulation<2>&);
+
+/// The body of a simulation as it was before anything broke: gives the snapshots of moments that have passed.
+template <int Dim>
+class UnbrokenBody {
+ public:
+    explicit UnbrokenBody(const Simulation<Dim>& simulation);
+    /// The same bits as take_snapshot would have given then, if no bond was broken yet.
+    Snapshot snapshot(Motion<Dim> motion);
+
+ private:
+    Model<Dim> model_;
+    std::unique_ptr<ElasticLaw<Dim>> law_;
+};
+
+extern template class UnbrokenBody<2>;
 
 }  // namespace hibi

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -154,15 +153,9 @@ void Simulation<Dim>::list_stages() {
 
 template <int Dim>
 void Simulation<Dim>::explicit_step() {
-    using Clock = std::chrono::steady_clock;
-    for (Stage& stage : stages_) {
-        if (!profiles_) {
-            stage.run();
-            continue;
-        }
-        const auto begin = Clock::now();
+    for (const Stage& stage : stages_) {
+        const TimedStage timed(profile_, stage.name.c_str());
         stage.run();
-        stage.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     }
     if (!std::isfinite(kinetic_)) report_failure();
 }
@@ -555,13 +548,6 @@ std::vector<std::string> Simulation<Dim>::stage_names() const {
     std::vector<std::string> names;
     for (const Stage& stage : stages_) names.push_back(stage.name);
     return names;
-}
-
-template <int Dim>
-std::vector<StageTime> Simulation<Dim>::stage_times() const {
-    std::vector<StageTime> times;
-    for (const Stage& stage : stages_) times.push_back({stage.name, stage.seconds});
-    return times;
 }
 
 template class Simulation<2>;

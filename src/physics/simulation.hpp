@@ -99,9 +99,8 @@ class Simulation {
 
     /// The stages of a step in order, as `check` shows them.
     std::vector<std::string> stage_names() const;
-    /// From now on the time of every stage of an explicit step is taken.
-    void profile() { profiles_ = true; }
-    std::vector<StageTime> stage_times() const;
+    /// From now on the times of the stages are added to `times`; null: they are not taken.
+    void profile(StageTimes* times) { profile_ = times; }
 
  private:
     struct LoadState {
@@ -128,7 +127,6 @@ class Simulation {
     struct Stage {
         std::string name;
         std::function<void()> run;
-        double seconds = 0;  ///< spent in it so far, where the run is profiled
     };
     void list_stages();
     void explicit_step();
@@ -200,7 +198,7 @@ class Simulation {
     std::vector<double> damped_in_block_, kinetic_in_block_;  ///< in the last kick (J)
     std::vector<double> inverse_mass_of_block_;  ///< where all its components have the same; else 0 (1/kg)
     std::vector<Stage> stages_;
-    bool profiles_ = false;
+    StageTimes* profile_ = nullptr;
     double stable_time_step_ = 0, time_step_ = 0, damping_rate_ = 0;
     double time_ = 0;
     std::int64_t steps_ = 0;

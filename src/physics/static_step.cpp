@@ -53,11 +53,17 @@ void Simulation<Dim>::start_statics() {
 template <int Dim>
 void Simulation<Dim>::static_step() {
     if (collapse_) return;
-    if (!settled_)
-        relax();
-    else if (highest_utilisation() <= 1)
-        raise_loads();
-    if (!collapse_ && can_break()) break_overstrained();
+    const std::vector<std::string> names = static_stage_names();
+    {
+        const TimedStage timed(profile_, names[1].c_str());
+        if (!settled_)
+            relax();
+        else if (highest_utilisation() <= 1)
+            raise_loads();
+    }
+    if (collapse_ || !can_break()) return;
+    const TimedStage timed(profile_, names.back().c_str());
+    break_overstrained();
 }
 
 /// Equilibrium again at the same load, after breaks. Where bonds break one by one and there is none that all

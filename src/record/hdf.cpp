@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
+
+#include "record/planes.hpp"
 
 namespace hibi {
 
 namespace {
 
-/// Numbers in a chunk, about: large enough to compress well, small enough for HDF5's cache of 1 MB.
-constexpr std::size_t chunk_numbers = 1 << 16;
+/// Numbers in a chunk: large enough to compress well, small enough for HDF5's cache of 1 MB.
+constexpr std::size_t chunk_rows = 1 << 16;
 /// Below this many numbers the index of the chunks is larger than what compression saves.
 constexpr std::size_t chunk_minimum = 512;
 
@@ -29,6 +32,25 @@ std::string last_error() {
 
 /// Without this HDF5 prints its stack of errors to standard error; the setting belongs to the thread.
 void keep_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+/// Rows of a chunk where chunks are as HdfFile::write makes them, a column each, of numbers of this type;
+/// else 0: files of earlier versions have chunks of whole rows.
+std::size_t column_chunk(hid_t dataset, hid_t type) {
+    const HdfHandle layout(H5Dget_create_plist(dataset), H5Pclose), stored(H5Dget_type(dataset), H5Tclose);
+    std::array<hsize_t, 2> chunk{};
+    const bool columns = H5Pget_layout(layout) == H5D_CHUNKED && H5Pget_nfilters(layout) == 2 &&
+                         H5Pget_chunk(layout, 2, chunk.data()) == 2 && chunk[1] == 1 &&
+                         H5Tequal(stored, type) > 0;
+    return columns ? chunk[0] : 0;
+}
+
+/// Are these numbers, so many bytes apart, zeros bit for bit?
+bool all_zero(const std::uint8_t* numbers, std::size_t stride, std::size_t count, std::size_t size) {
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < size; ++k)
+            if (numbers[i * stride + k] != 0) return false;
+    return true;
+}
 
 HdfHandle properties(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
 
@@ -67,23 +89,44 @@ void HdfFile::write(const std::string& name, hid_t type, std::size_t width, std:
                     const void* data) {
     const int rank = width == 1 ? 1 : 2;
     const std::array<hsize_t, 2> size = {rows, width};
+    // A column each: where one holds nothing but zeros, as z does in the plane, it costs nothing.
+    const std::array<hsize_t, 2> chunk = {std::min(rows, chunk_rows), 1};
+    const bool chunked = rows * width >= chunk_minimum;
     const HdfHandle layout = properties(H5P_DATASET_CREATE);
     bool good = H5Pset_obj_track_times(layout, false) >= 0;
-    if (rows * width >= chunk_minimum) {
-        const std::array<hsize_t, 2> chunk = {std::clamp<hsize_t>(chunk_numbers / width, 1, rows), width};
-        // The last chunk reaches beyond the data; filled on allocation, its rest is zero instead of stray
-        // memory.
-        good = good && H5Pset_chunk(layout, rank, chunk.data()) >= 0 &&
-               H5Pset_fill_time(layout, H5D_FILL_TIME_ALLOC) >= 0 && H5Pset_shuffle(layout) >= 0 &&
+    if (chunked)
+        good = good && H5Pset_chunk(layout, rank, chunk.data()) >= 0 && H5Pset_shuffle(layout) >= 0 &&
                H5Pset_deflate(layout, 1) >= 0;
-    }
     const HdfHandle space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose);
     HdfHandle dataset(H5Dcreate2(handle_, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT),
                       H5Dclose);
     good = good && dataset.valid();
-    if (rows > 0) good = good && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+    if (chunked)
+        good = good && write_chunks(dataset, H5Tget_size(type), width, rows, chunk[0], data);
+    else if (rows > 0)
+        good = good && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
     check(good, "write " + name);
     check(dataset.close(), "write " + name);
+}
+
+/// Past HDF5's own filters, which read what is written here.
+bool HdfFile::write_chunks(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                           std::size_t chunk_size, const void* data) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    const std::size_t stride = width * number_size;
+    PlaneDeflater deflater;
+    for (std::size_t row = 0; row < rows; row += chunk_size)
+        for (std::size_t c = 0; c < width; ++c) {
+            const std::uint8_t* numbers = bytes + row * stride + c * number_size;
+            const std::size_t count = std::min(chunk_size, rows - row);
+            // A chunk that is not there reads as zeros.
+            if (all_zero(numbers, stride, count, number_size)) continue;
+            const auto deflated = deflater.deflate(numbers, stride, count, number_size, chunk_size);
+            const std::array<hsize_t, 2> place = {row, c};
+            if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, place.data(), deflated.size(), deflated.data()) < 0)
+                return false;
+        }
+    return true;
 }
 
 void HdfFile::write_attribute(const std::string& object, const std::string& name, hid_t type,
@@ -139,8 +182,40 @@ std::size_t HdfFile::check_rows(hid_t dataset, const std::string& name, std::siz
     return size[0];
 }
 
-void HdfFile::read_dataset(hid_t dataset, const std::string& name, hid_t type, void* data) const {
-    check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, "read " + name);
+void HdfFile::read_dataset(hid_t dataset, const std::string& name, hid_t type, std::size_t width,
+                           std::size_t rows, void* data) const {
+    const std::size_t chunk_size = width > 1 ? column_chunk(dataset, type) : 0;
+    const bool good = chunk_size > 0 ? read_columns(dataset, H5Tget_size(type), width, rows, chunk_size, data)
+                                     : H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+    check(good, "read " + name);
+}
+
+/// Past HDF5's own filters: it is slow where it has to put every number of a chunk in a place of its own.
+bool HdfFile::read_columns(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                           std::size_t chunk_size, void* data) {
+    auto* bytes = static_cast<std::uint8_t*>(data);
+    const std::size_t stride = width * number_size;
+    std::vector<std::uint8_t> deflated, planes(chunk_size * number_size);
+    for (std::size_t row = 0; row < rows; row += chunk_size)
+        for (std::size_t c = 0; c < width; ++c) {
+            const std::array<hsize_t, 2> place = {row, c};
+            hsize_t size = 0;
+            unsigned unused_filters = 0;
+            haddr_t address = 0;
+            if (H5Dget_chunk_info_by_coord(dataset, place.data(), &unused_filters, &address, &size) < 0)
+                return false;
+            std::uint8_t* numbers = bytes + row * stride + c * number_size;
+            const std::size_t count = std::min(chunk_size, rows - row);
+            if (size == 0) {  // all zeros
+                for (std::size_t i = 0; i < count; ++i) std::memset(numbers + i * stride, 0, number_size);
+                continue;
+            }
+            deflated.resize(size);
+            if (H5Dread_chunk(dataset, H5P_DEFAULT, place.data(), &unused_filters, deflated.data()) < 0 ||
+                unused_filters != 0 || !inflate_planes(deflated, planes, numbers, stride, count, number_size))
+                return false;
+        }
+    return true;
 }
 
 HdfHandle HdfFile::open_attribute(const std::string& object, const std::string& name) const {

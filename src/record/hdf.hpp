@@ -69,7 +69,7 @@ class HdfFile {
     std::vector<T> read(const std::string& name, std::int64_t rows = -1) const {
         const HdfHandle dataset = open_dataset(name);
         std::vector<T> data(check_rows(dataset, name, HdfEntry<T>::width, rows));
-        read_dataset(dataset, name, HdfEntry<T>::type(), data.data());
+        read_dataset(dataset, name, HdfEntry<T>::type(), HdfEntry<T>::width, data.size(), data.data());
         return data;
     }
     template <class T>
@@ -89,13 +89,18 @@ class HdfFile {
 
     void check(bool good, const std::string& operation) const;
     void write(const std::string& name, hid_t type, std::size_t width, std::size_t rows, const void* data);
+    static bool write_chunks(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                             std::size_t chunk_size, const void* data);
     void write_attribute(const std::string& object, const std::string& name, hid_t type, std::size_t count,
                          const void* data);
     HdfHandle open_dataset(const std::string& name) const;
     HdfHandle open_attribute(const std::string& object, const std::string& name) const;
     std::size_t check_rows(hid_t dataset, const std::string& name, std::size_t width,
                            std::int64_t rows) const;
-    void read_dataset(hid_t dataset, const std::string& name, hid_t type, void* data) const;
+    void read_dataset(hid_t dataset, const std::string& name, hid_t type, std::size_t width, std::size_t rows,
+                      void* data) const;
+    static bool read_columns(hid_t dataset, std::size_t number_size, std::size_t width, std::size_t rows,
+                             std::size_t chunk_size, void* data);
     void read_attribute(const std::string& object, const std::string& name, hid_t type, std::size_t count,
                         void* data) const;
 

@@ -67,7 +67,9 @@ RunReader::RunReader(std::filesystem::path folder) : folder_(std::move(folder)) 
     if (!breaks.empty()) summary_.events.first_break = Event{.time = breaks.front().time};
 }
 
-Snapshot RunReader::read(int state) const { return read_state(states_.at(state).file, topology_); }
+Snapshot RunReader::read(int state, const std::vector<std::string>& arrays) const {
+    return read_state(states_.at(state).file, topology_, arrays);
+}
 
 RunReader::Extent RunReader::extent(int state) const { return read_extent(states_.at(state).file); }
 

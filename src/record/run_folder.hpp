@@ -1,4 +1,5 @@
 #pragma once
+#include <any>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stage_time.hpp"
 #include "measure/history.hpp"
 #include "measure/moment.hpp"
 #include "measure/snapshot.hpp"
@@ -28,6 +30,8 @@ struct RunSummary {
     Fragments fragments{};       ///< at the end
     double worst_imbalance = 0, imbalance_at_first_break = 0;
     bool trusted = true;
+    /// What `--profile` measured, stage by stage: "run", "draw". Stages of different threads overlap.
+    std::map<std::string, std::vector<StageTime>> profile;
     std::map<std::string, double> seconds;  ///< setup, solve, draw, encode, total
     std::optional<std::string> stopped;     ///< why the run ended early, in words
     std::vector<std::string> warnings;
@@ -42,7 +46,8 @@ class RunWriter {
     /// Creates the folder; removes what an earlier run left in it, and nothing else.
     /// Throws std::runtime_error naming the folder where it cannot be written.
     /// `comment` stands behind the units in the tables.
-    explicit RunWriter(std::filesystem::path folder, std::string comment = {});
+    /// `profile` takes the time of its thread.
+    explicit RunWriter(std::filesystem::path folder, std::string comment = {}, StageTimes* profile = nullptr);
     ~RunWriter();
     RunWriter(const RunWriter&) = delete;
     RunWriter& operator=(const RunWriter&) = delete;
@@ -54,6 +59,8 @@ class RunWriter {
     void breaks(const std::vector<Break>& breaks);
     void state(Snapshot snapshot);       ///< queued; ignored if that step is already there
     void drop_state(std::int64_t step);  ///< a state no longer wanted
+    /// Waits until every state handed over stands on the disk.
+    void drain();
     /// Waits for the queue, writes states.hdf.series and run.json. May fail, so it is no destructor.
     void finish(const RunSummary& summary);
 
@@ -99,7 +106,9 @@ class RunReader {
         return broken_at_;
     }  ///< per bond (s), infinity where intact
     const RunSummary& summary() const { return summary_; }
-    Snapshot read(int state) const;
+    /// Of the arrays with an entry per particle only those named, the others being empty; all where none is
+    /// named.
+    Snapshot read(int state, const std::vector<std::string>& arrays = {}) const;
 
     /// Extent of one state without reading all of it: smallest and largest position and, by field name of
     /// scalar_field, smallest and largest value. Stored with the state when it was written.
@@ -109,6 +118,16 @@ class RunReader {
     };
     Extent extent(int state) const;
 
+    /// What `make` makes of the run, kept under `name` as long as the reader: one run is drawn in many
+    /// styles, and need not be read through for each. One name has one type. Not thread-safe.
+    template <class T, class Make>
+    const T& once(const std::string& name, Make&& make) const {
+        const auto found = made_.find(name);
+        if (found != made_.end()) return *std::any_cast<T>(&found->second);
+        std::any made = T(make());
+        return *std::any_cast<T>(&made_.emplace(name, std::move(made)).first->second);
+    }
+
  private:
     std::filesystem::path folder_;
     Topology topology_;
@@ -116,6 +135,7 @@ class RunReader {
     std::vector<StateInfo> states_;
     std::vector<double> broken_at_;
     RunSummary summary_;
+    mutable std::map<std::string, std::any> made_;
 };
 
 }  // namespace hibi

@@ -103,7 +103,8 @@ void write_state(const std::filesystem::path& states, const Topology& topology, 
     rename_part(path);
 }
 
-Snapshot read_state(const std::filesystem::path& path, const Topology& topology) {
+Snapshot read_state(const std::filesystem::path& path, const Topology& topology,
+                    const std::vector<std::string>& arrays) {
     const HdfFile file = HdfFile::open(path);
     const auto particles = static_cast<std::int64_t>(topology.reference_position.size());
     const auto bonds = static_cast<int>(topology.first.size());
@@ -112,10 +113,11 @@ Snapshot read_state(const std::filesystem::path& path, const Topology& topology)
     s.step = file.attribute<std::int64_t>("/Hibi", "step", 1).front();
     each_point_array(s, [&](const char* name, auto& data) {
         using Entry = typename std::decay_t<decltype(data)>::value_type;
+        if (!arrays.empty() && std::ranges::find(arrays, name) == arrays.end()) return;
         data = file.read<Entry>(point_data + std::string(name), particles);
     });
     const std::string angle = point_data + std::string("angle");
-    if (file.has(angle)) s.angle = file.read<double>(angle, particles);
+    if (arrays.empty() && file.has(angle)) s.angle = file.read<double>(angle, particles);
     s.broken = file.read<int>("/Hibi/broken");
     s.broken_at = file.read<double>("/Hibi/broken_at", static_cast<std::int64_t>(s.broken.size()));
     for (const int bond : s.broken)

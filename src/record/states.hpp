@@ -20,7 +20,10 @@ std::filesystem::path state_file(const std::filesystem::path& states, std::int64
 /// bond, broken or not. Group /Hibi holds what VTK has no place for. Bonds, bodies and other constant arrays
 /// are links into topology.hdf.
 void write_state(const std::filesystem::path& states, const Topology& topology, const Snapshot& snapshot);
-Snapshot read_state(const std::filesystem::path& file, const Topology& topology);
+/// Of the arrays with an entry per particle only those named, "displacement" say, the others being empty; all
+/// where none is named.
+Snapshot read_state(const std::filesystem::path& file, const Topology& topology,
+                    const std::vector<std::string>& arrays = {});
 
 /// Time and step of a state without its arrays.
 StateInfo read_state_info(const std::filesystem::path& file);

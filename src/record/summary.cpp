@@ -65,8 +65,25 @@ Json seconds_json(const std::map<std::string, double>& seconds) {
     return json;
 }
 
+Json profile_json(const RunSummary& s) {
+    Json json = Json::object();
+    for (const auto& [phase, stages] : s.profile) {
+        Json list = Json::array();
+        for (const StageTime& stage : stages)
+            list.push_back({{"stage", stage.name}, {"seconds", stage.seconds}, {"calls", stage.calls}});
+        json[phase] = list;
+    }
+    return json;
+}
+
+void profile_from_json(const Json& json, RunSummary& s) {
+    for (const auto& [phase, stages] : json.items())
+        for (const Json& stage : stages)
+            s.profile[phase].push_back({stage.at("stage"), stage.at("seconds"), stage.at("calls")});
+}
+
 Json to_json(const RunSummary& s) {
-    return {
+    Json json = {
         {"scene",
          {{"title", s.title}, {"hash", s.scene_hash}, {"file", s.scene_file}, {"parameters", s.parameters}}},
         {"version", s.version},
@@ -103,6 +120,8 @@ Json to_json(const RunSummary& s) {
         {"threads", s.threads},
         {"stopped", or_null(s.stopped)},
         {"warnings", s.warnings}};
+    if (!s.profile.empty()) json["profile"] = profile_json(s);
+    return json;
 }
 
 RunSummary from_json(const Json& json) {
@@ -148,6 +167,7 @@ RunSummary from_json(const Json& json) {
     json.at("threads").get_to(s.threads);
     if (const Json& stopped = json.at("stopped"); !stopped.is_null()) s.stopped = stopped.get<std::string>();
     json.at("warnings").get_to(s.warnings);
+    if (const auto profile = json.find("profile"); profile != json.end()) profile_from_json(*profile, s);
     return s;
 }
 

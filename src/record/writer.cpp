@@ -69,6 +69,7 @@ struct RunWriter::Impl {
 
     std::filesystem::path folder, states;
     std::string comment;
+    StageTimes* profile = nullptr;
     Growing history, breaks;
     int dimension = 2;
     Topology topology;
@@ -94,10 +95,12 @@ struct RunWriter::Impl {
             lock.unlock();
             std::exception_ptr failure;
             try {
-                if (job.write)
+                if (job.write) {
+                    const TimedStage timed(profile, "write states");
                     write_state(states, topology, *job.write);
-                else
+                } else {
                     std::filesystem::remove(state_file(states, job.drop));
+                }
             } catch (...) {
                 failure = std::current_exception();
             }
@@ -141,8 +144,10 @@ struct RunWriter::Impl {
     }
 };
 
-RunWriter::RunWriter(std::filesystem::path folder, std::string comment) : impl_(std::make_unique<Impl>()) {
+RunWriter::RunWriter(std::filesystem::path folder, std::string comment, StageTimes* profile)
+    : impl_(std::make_unique<Impl>()) {
     impl_->comment = std::move(comment);
+    impl_->profile = profile;
     impl_->folder = std::move(folder);
     impl_->states = impl_->folder / "states";
     create_folder(impl_->folder);
@@ -200,8 +205,10 @@ void RunWriter::drop_state(std::int64_t step) {
     if (impl_->recorded.erase(step) > 0) impl_->add({.drop = step});
 }
 
+void RunWriter::drain() { impl_->drain(); }
+
 void RunWriter::finish(const RunSummary& summary) {
-    impl_->drain();
+    drain();
     impl_->history.flush();
     impl_->breaks.flush();
     impl_->write_series();

@@ -10,15 +10,17 @@ class Context;
 #define HIBI_GL_FUNCTIONS(X)                                                                                 \
     X(ActiveTexture)                                                                                         \
     X(AttachShader)                                                                                          \
-    X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer) X(BindTexture) X(BindVertexArray)                   \
-        X(BlendFuncSeparate) X(BufferData) X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) \
-            X(CreateProgram) X(CreateShader) X(DrawArrays) X(Enable) X(Disable) X(FramebufferRenderbuffer)   \
-                X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays)       \
-                    X(GetError) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv)      \
-                        X(GetString) X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(ReadPixels)       \
-                            X(RenderbufferStorage) X(Scissor) X(ShaderSource) X(TexBuffer) X(TexImage2D)     \
-                                X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform2f) X(Uniform3f)         \
-                                    X(UseProgram) X(Viewport)
+    X(BindBuffer)                                                                                            \
+    X(BindFramebuffer)                                                                                       \
+    X(BindRenderbuffer) X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate) X(BufferData)                 \
+        X(BufferSubData) X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) X(CreateProgram)  \
+            X(CreateShader) X(DrawArrays) X(DrawElements) X(Enable) X(Disable) X(Finish)                     \
+                X(FramebufferRenderbuffer) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers)              \
+                    X(GenTextures) X(GenVertexArrays) X(GetError) X(GetProgramInfoLog) X(GetProgramiv)       \
+                        X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram) \
+                            X(PixelStorei) X(ReadPixels) X(RenderbufferStorage) X(Scissor) X(ShaderSource)   \
+                                X(TexBuffer) X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i)        \
+                                    X(Uniform2f) X(Uniform3f) X(UseProgram) X(Viewport)
 
 /// The OpenGL functions of one context. libOSMesa and libOpenGL export the same names, so the program links
 /// neither and calls only through such a table.

@@ -31,7 +31,7 @@ constexpr double least_line_spacing = 12;
 // How much darker than its particles a body is between them, also where a theme has no rims.
 constexpr float least_gap = 0.2f;
 
-// What the shaders fetch by index, so that bonds need no positions of their own. The six vertices that draw
+// What the shaders fetch by index, so that bonds need no positions of their own. The four vertices that draw
 // one thing are made from their number alone.
 struct DrawnParticle {
     float x, y, half_spacing, value;
@@ -49,6 +49,7 @@ struct Table {
     int unit;
     GLenum format;
     GLuint buffer = 0;
+    std::size_t bytes = 0;
 };
 
 }  // namespace
@@ -60,6 +61,7 @@ struct Renderer::Impl {
           stroke(view.stroke),
           colours(theme(view.theme)),
           topology(body),
+          profile(options.profile),
           context(make_context(options.backend)) {
         const CurrentContext current(*context);
         gl.emplace(*context);
@@ -117,6 +119,23 @@ struct Renderer::Impl {
         GLuint no_attributes = 0;  // a core profile draws nothing without an array object
         gl->GenVertexArrays(1, &no_attributes);
         gl->BindVertexArray(no_attributes);
+        gl->GenBuffers(1, &corners);
+        gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, corners);
+    }
+
+    /// Two triangles each, of the four vertices that the shaders make of their numbers 4 k .. 4 k + 3: none
+    /// is worked out twice.
+    void draw_quads(int count) {
+        if (count > quads) {
+            quads = std::max(count, 2 * quads);
+            std::vector<GLuint> order_of_corners;
+            for (GLuint first = 0; first < 4 * static_cast<GLuint>(quads); first += 4)
+                for (const GLuint k : {0u, 1u, 2u, 2u, 1u, 3u}) order_of_corners.push_back(first + k);
+            gl->BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                           static_cast<GLsizeiptr>(order_of_corners.size() * sizeof(GLuint)),
+                           order_of_corners.data(), GL_STATIC_DRAW);
+        }
+        gl->DrawElements(GL_TRIANGLES, 6 * count, GL_UNSIGNED_INT, nullptr);
     }
 
     void describe() {
@@ -128,10 +147,14 @@ struct Renderer::Impl {
     }
 
     template <class T>
-    void upload(const Table& table, const std::vector<T>& rows) {
+    void upload(Table& table, const std::vector<T>& rows) {
+        const std::size_t bytes = rows.size() * sizeof(T);
         gl->BindBuffer(GL_TEXTURE_BUFFER, table.buffer);
-        gl->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(T)), rows.data(),
-                       GL_STREAM_DRAW);
+        if (bytes == table.bytes)  // fresh memory is dearer than the copy
+            gl->BufferSubData(GL_TEXTURE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), rows.data());
+        else
+            gl->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes), rows.data(), GL_STREAM_DRAW);
+        table.bytes = bytes;
     }
 
     void start(const Program& program) {
@@ -160,8 +183,11 @@ struct Renderer::Impl {
         upload(particle_table, particles);
     }
 
-    /// Bonds between neighbours come first: they carry the surface. Returns their number.
-    int upload_bonds(const Picture2& picture) {
+    /// Bonds between neighbours come first: they carry the surface. Most frames show those of the frame
+    /// before.
+    void upload_bonds(const Picture2& picture) {
+        if (picture.intact == uploaded_intact) return;
+        uploaded_intact = picture.intact;
         bonds.clear();
         for (const int b : picture.intact) bonds.push_back({topology.first[b], topology.second[b]});
         const auto nearest = [&](const DrawnBond& b) {
@@ -170,8 +196,8 @@ struct Renderer::Impl {
             return length < longest_strip / 2 * (topology.spacing[b.first] + topology.spacing[b.second]);
         };
         const auto others = std::ranges::stable_partition(bonds, nearest);
+        nearest_bonds = static_cast<int>(bonds.size() - others.size());
         upload(bond_table, bonds);
-        return static_cast<int>(bonds.size() - others.size());
     }
 
     void upload_cracks(const Picture2& picture) {
@@ -206,31 +232,39 @@ struct Renderer::Impl {
         const int beyond = static_cast<int>(guard);
         gl->Viewport(-beyond, -beyond, width + 2 * beyond, height + 2 * beyond);
 
-        upload_particles(picture);
-        coloured = !picture.value.empty();
         const double spacing = largest_spacing * picture.camera.scale;
-        if (!picture.intact.empty() && spacing > least_surface_spacing) {
-            const int nearest = upload_bonds(picture);
+        const bool with_bonds = !picture.intact.empty() && spacing > least_surface_spacing;
+        {
+            const TimedStage timed(profile, "upload");
+            upload_particles(picture);
+            if (with_bonds) upload_bonds(picture);
+            if (!picture.broken.empty()) upload_cracks(picture);
+        }
+        const TimedStage timed(profile, "draw calls");
+        coloured = !picture.value.empty();
+        if (with_bonds) {
             start(*surface);
             surface->set("bonds", bond_table.unit);
             surface->set("gap", std::max(colours.rim, least_gap));
-            gl->DrawArrays(GL_TRIANGLES, 0, 6 * nearest);
+            draw_quads(nearest_bonds);
         }
 
         const bool squares = spacing + sprite_margin > largest_sprite;
         const int count = static_cast<int>(particles.size());
         start(*particle);
         particle->set("squares", squares);
-        gl->DrawArrays(squares ? GL_TRIANGLES : GL_POINTS, 0, squares ? 6 * count : count);
+        if (squares)
+            draw_quads(count);
+        else
+            gl->DrawArrays(GL_POINTS, 0, count);
 
-        if (!picture.intact.empty() && spacing > least_line_spacing) {
+        if (with_bonds && spacing > least_line_spacing) {
             start(*bond);
             bond->set("bonds", bond_table.unit);
             set(*bond, "colour", colours.bond);
-            gl->DrawArrays(GL_TRIANGLES, 0, 6 * static_cast<int>(bonds.size()));
+            draw_quads(static_cast<int>(bonds.size()));
         }
         if (!picture.broken.empty()) {
-            upload_cracks(picture);
             start(*crack);
             crack->set("bonds", crack_table.unit);
             crack->set("states", state_table.unit);
@@ -238,14 +272,15 @@ struct Renderer::Impl {
             set(*crack, "fresh_colour", colours.crack_fresh);
             set(*crack, "old_colour", colours.crack_old);
             set(*crack, "background", colours.background);
-            gl->DrawArrays(GL_TRIANGLES, 0, 6 * static_cast<int>(cracks.size()));
+            draw_quads(static_cast<int>(cracks.size()));
         }
     }
 
     int width, height;
     double stroke;
     const Theme& colours;
-    Topology topology;
+    const Topology& topology;
+    StageTimes* profile;
     double largest_spacing = 0;
     double longest_strip = 0;  ///< of the bonds that carry the surface (spacings)
     bool coloured = true;
@@ -253,7 +288,10 @@ struct Renderer::Impl {
     std::vector<DrawnParticle> particles;
     std::vector<DrawnBond> bonds, cracks;
     std::vector<CrackState> states;
-    std::vector<int> order;
+    std::vector<int> order, uploaded_intact;
+    GLuint corners = 0;
+    int quads = 0;          ///< whose corners the buffer holds
+    int nearest_bonds = 0;  ///< the first so many of `bonds`
 
     // The objects below die with the context, so none is deleted by itself.
     std::unique_ptr<Context> context;
@@ -281,10 +319,19 @@ void Renderer::draw(const Picture2& picture, const Rgb& background, Image& image
         image = Image(impl_->width, impl_->height);
     const CurrentContext current(*impl_->context);
     impl_->draw(picture, background);
+    if (impl_->profile) {  // else reading waits for it, and its time cannot be told apart
+        const TimedStage timed(impl_->profile, "rasterise");
+        impl_->gl->Finish();
+    }
+    const TimedStage timed(impl_->profile, "read back");
     impl_->gl->ReadPixels(0, 0, image.width, image.height, GL_BGRA, GL_UNSIGNED_BYTE, image.bgra.data());
     if (const GLenum error = impl_->gl->GetError(); error != GL_NO_ERROR)
         throw std::runtime_error(
             fmt::format("{}: drawing failed, OpenGL error {:#06x}", impl_->description, error));
+}
+
+bool Renderer::shows_bonds(const Camera2& camera) const {
+    return impl_->largest_spacing * camera.scale > least_surface_spacing;
 }
 
 std::string Renderer::description() const { return impl_->description; }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stage_time.hpp"
 #include "image/camera.hpp"
 #include "image/image.hpp"
 #include "image/theme.hpp"
@@ -21,17 +22,20 @@ enum class GlBackend { osmesa, egl };
 struct RendererOptions {
     GlBackend backend = GlBackend::osmesa;
     std::optional<std::filesystem::path> shaders{};
+    StageTimes* profile = nullptr;  ///< where the times of a frame's stages go, if anywhere
 };
 
 /// One moment, ready to be drawn.
 struct Picture2 {
     Camera2 camera;
-    std::vector<float> x, y;       ///< current positions (m), displacement magnified as the view asks
-    std::vector<float> value{};    ///< 0..1 per particle: place in the colour map; empty: the theme's body colour
-    std::vector<int> intact;       ///< bonds to draw as intact
-    std::vector<int> broken;       ///< bonds to draw as crack faces
+    std::vector<float> x, y;  ///< current positions (m), displacement magnified as the view asks
+    std::vector<float>
+        value{};              ///< 0..1 per particle: place in the colour map; empty: the theme's body colour
+    std::vector<int> intact;  ///< bonds to draw as intact
+    std::vector<int> broken;  ///< bonds to draw as crack faces
     std::vector<float> freshness;  ///< per broken bond: 1 just broken .. 0 old trace
-    std::vector<float> history{};  ///< per broken bond: 0..1, place in the colour map; empty: the theme's colours
+    std::vector<float>
+        history{};  ///< per broken bond: 0..1, place in the colour map; empty: the theme's colours
 };
 
 /// Draws particles, intact and broken bonds on the theme's background. Intact bonds between neighbours also
@@ -42,6 +46,7 @@ struct Picture2 {
 /// std::runtime_error naming the library or the shader.
 class Renderer {
  public:
+    /// The topology is kept as a reference.
     Renderer(const View& view, const Topology& topology, const RendererOptions& options = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
@@ -51,6 +56,9 @@ class Renderer {
     /// Whatever the colour, the border of a crack is that of the theme's background: it is part of the crack.
     void draw(const Picture2& picture, const Rgb& background, Image& image);
     void draw(const Picture2& picture, Image& image);  ///< on the theme's background
+
+    /// Are intact bonds seen at all? Where particles lie close enough, their discs alone cover the body.
+    bool shows_bonds(const Camera2& camera) const;
 
     /// e.g. "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6, OSMesa"
     std::string description() const;

@@ -172,7 +172,9 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
 
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides) {
+namespace {
+
+Scene parse(const std::string& text, const std::string& name, const Overrides& overrides, bool assembled) {
     Scene scene;
     scene.file = name;
     std::vector<SceneError> errors;
@@ -192,12 +194,12 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
         !scene.loads.empty())
         scene.loads.front().primary = true;
     check_scene(scene, context.problems);
-    assemble(scene, context.problems);
+    if (assembled) assemble(scene, context.problems);
     if (!context.problems.errors().empty()) throw SceneErrors(name, text, context.problems.errors());
     return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+Scene read(const std::filesystem::path& file, const Overrides& overrides, bool assembled) {
     const auto refuse = [&](const std::string& message, const std::string& hint) {
         throw SceneErrors(file.string(), "", {SceneError{0, 0, 1, message, hint}});
     };
@@ -210,7 +212,21 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) 
     std::string text(largest_scene_bytes + 1, '\0');
     text.resize(std::fread(text.data(), 1, text.size(), in.get()));
     if (std::ferror(in.get())) refuse(fmt::format("cannot read it: {}", std::strerror(errno)), "");
-    return parse_scene(text, file.string(), overrides);
+    return parse(text, file.string(), overrides, assembled);
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides) {
+    return parse(text, name, overrides, true);
+}
+
+Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+    return read(file, overrides, true);
+}
+
+Scene read_recorded_scene(const std::filesystem::path& folder) {
+    return read(folder / "scene.toml", {}, false);
 }
 
 std::string scene_hash(const Scene& scene) { return sha256(write_scene(scene)); }

@@ -30,7 +30,10 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;  ///< -p nam
 
 /// Reads and checks a scene, including that it can be built. Throws SceneErrors.
 Scene read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
-/// The same from text; `name` stands in the messages.
+/// The scene in the folder of a run. That it can be built has been seen, and is not looked at again: that
+/// takes as long as building it.
+Scene read_recorded_scene(const std::filesystem::path& folder);
+/// The same as read_scene from text; `name` stands in the messages.
 Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides = {});
 
 /// The completed scene as TOML: every default filled in, SI units. Reading it gives the same scene, and

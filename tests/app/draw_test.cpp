@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/frame_writer.hpp"
+#include "app/profile.hpp"
 #include "app/recorded_cantilever.hpp"
 #include "base/hash.hpp"
 #include "film/encoder.hpp"
@@ -321,6 +322,25 @@ TEST(FrameWriter, BeingLeftUnfinishedStopsItsThreads) {
         writer.add(writer.take(), info, {});
     }
     EXPECT_FALSE(fs::exists(folder.path() / "movie.mp4"));
+}
+
+TEST(Draw, ProfileCountsEveryStageOfEveryFrameAndChangesNoPixel) {
+    const TemporaryFolder plain, measured;
+    const RecordedCantilever cantilever;
+    StageTimes times = drawing_stages();
+    cantilever.write(plain.path());
+    cantilever.write(measured.path());
+    const DrawResult result =
+        draw_run(cantilever.scene(), measured.path(), {.renderer = {.profile = &times}});
+    draw_run(cantilever.scene(), plain.path(), {});
+    EXPECT_EQ(frames_of(measured.path()), frames_of(plain.path()));
+    std::map<std::string, std::int64_t> calls;
+    for (const StageTime& stage : times.list()) calls[stage.name] = stage.calls;
+    for (const char* stage : {"interpolate", "place symbols", "upload", "draw calls", "rasterise",
+                              "read back", "overlay", "wait for the writers", "hash", "write PNG", "encode"})
+        EXPECT_EQ(calls[stage], 20) << stage;
+    EXPECT_EQ(calls["write poster"], 1);
+    EXPECT_GT(result.processor_seconds, 0);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST_F(Figures, EventsAtOneMomentShareAPicture) {
 }
 
 TEST_F(Figures, ARunsFolderGetsThemInPrintWidthsWithTheirOriginAndLosesThemAgain) {
-    draw_figures(scene_, folder_.path(), {});
+    draw_figures(scene_, RunReader(folder_.path()), {});
     const std::map<std::string, int> widths = {{"strip.png", 2008},
                                                {"cracks.png", 2008},
                                                {"curve.png", 2008},

@@ -62,6 +62,24 @@ TEST_F(Picture, ABondIsBrokenFromItsTimeOnAndNotBefore) {
     EXPECT_EQ(last, 13);  // between two columns of five: five sides, eight diagonals
 }
 
+TEST_F(Picture, IntactBondsAreThereWhenWanted) {
+    PictureSource source(*run_, View{}, {0, 1});
+    const std::vector<int> before = source.at(0.5).intact;
+    ASSERT_FALSE(before.empty());
+    EXPECT_TRUE(source.at(0.5, false).intact.empty());
+    EXPECT_EQ(source.at(0.5).intact, before);
+    EXPECT_EQ(PictureSource(*run_, View{}, {0, 1}).at(0.5).intact, before);
+}
+
+TEST_F(WholeRun, IsWorkedOutOncePerReader) {
+    int calls = 0;
+    const auto count = [&] { return ++calls; };
+    EXPECT_EQ(run_->once<int>("calls", count), 1);
+    EXPECT_EQ(run_->once<int>("calls", count), 1);
+    EXPECT_EQ(run_->once<int>("other calls", count), 2);
+    EXPECT_EQ(&loose_since(*run_), &loose_since(*run_));
+}
+
 TEST_F(Picture, NearestBondsAreThoseOfTheLatticeSpacing) {
     const Topology& t = run_->topology();
     const std::vector<int> nearest = drawn_bonds(t, "nearest");

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 #include <thread>
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "physics/bond_kernel.hpp"
 #include "physics/simulation.hpp"
 #include "support/plates.hpp"
 
@@ -54,6 +56,10 @@ void step(benchmark::State& state, What what) {
     const auto steps = static_cast<double>(state.iterations());
     state.counters["bond-updates/s"] =
         benchmark::Counter(steps * simulation.model().bonds.count(), benchmark::Counter::kIsRate);
+    // Both loops, unwatched and deep inside: 10 and 16 for each of a bond's two ends
+    // (src/physics/kernel/loops.cpp).
+    state.counters["flop/s"] =
+        benchmark::Counter(52 * steps * simulation.model().bonds.count(), benchmark::Counter::kIsRate);
     state.counters["ns/particle-step"] =
         benchmark::Counter(steps * simulation.model().particles.count() * 1e-9,
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
@@ -81,6 +87,36 @@ BENCHMARK_CAPTURE(step, breakable, What::breakable)->Apply(sizes);
 BENCHMARK_CAPTURE(step, damped_and_heavy, What::damped_and_heavy)->Apply(one_size);
 BENCHMARK_CAPTURE(step, turned, What::turned)->Apply(one_size);
 BENCHMARK_CAPTURE(step, jittered, What::jittered)->Apply(one_size);
+
+#if defined(__x86_64__)
+using FourDoubles = double __attribute__((vector_size(32)));
+using EightDoubles = double __attribute__((vector_size(64)));
+
+/// What one core can do at most: fused multiply-adds without any memory.
+#define HIBI_MULTIPLY_AND_ADD(Register)                                        \
+    Register sum[10], factor = Register{} + 0.999999, add = Register{} + 1e-6; \
+    for (int k = 0; k < 10; ++k) sum[k] = Register{} + k;                      \
+    for (int k = 0; k < rounds; ++k)                                           \
+        for (Register & s : sum) s = s * factor + add;                         \
+    double total = 0;                                                          \
+    for (const Register& s : sum) total += s[0];                               \
+    return total;
+[[gnu::noipa, gnu::target("avx2,fma"), gnu::optimize("fp-contract=fast")]] double peak_of_v3(int rounds) {
+    HIBI_MULTIPLY_AND_ADD(FourDoubles)
+}
+[[gnu::noipa, gnu::target("avx512f"), gnu::optimize("fp-contract=fast")]] double peak_of_v4(int rounds) {
+    HIBI_MULTIPLY_AND_ADD(EightDoubles)
+}
+void peak(benchmark::State& state) {
+    constexpr int rounds = 100000;
+    const bool v4 = std::string(kernel::loops().level) == "v4";
+    for (auto _ : state) benchmark::DoNotOptimize(v4 ? peak_of_v4(rounds) : peak_of_v3(rounds));
+    state.counters["flop/s"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * rounds * 10 * (v4 ? 8 : 4) * 2,
+                           benchmark::Counter::kIsRate);
+}
+BENCHMARK(peak);
+#endif
 
 }  // namespace
 }  // namespace hibi

@@ -72,6 +72,23 @@ TEST(Completion, ZshReadsItsScript) {
 
 TEST(Completion, AnotherShellIsRefused) { EXPECT_EQ(call(HIBI_PROGRAM " completion tcsh").status, 2); }
 
+TEST(Profile, OfARunStandsInItsSummaryWhereAskedFor) {
+    const TemporaryFolder folder;
+    const std::string run = "cd " + folder.path().string() +
+                            " && " HIBI_PROGRAM " run " HIBI_SOURCE_DIR
+                            "/scenes/ci/beam.toml -q --no-pictures -o run";
+    const auto summary = [&] { return call("cat " + (folder.path() / "run/run.json").string()).out; };
+    ASSERT_EQ(call(run).status, 0);
+    EXPECT_EQ(summary().find("\"profile\""), std::string::npos);
+    const Answer answer = call(run + " --profile");
+    ASSERT_EQ(answer.status, 0);
+    EXPECT_NE(answer.out.find("ms per call"), std::string::npos) << answer.out;
+    for (const char* stage : {"setup", "bond forces, half kick", "take states", "history", "write states"}) {
+        EXPECT_NE(answer.out.find(stage), std::string::npos) << answer.out;
+        EXPECT_NE(summary().find("\"stage\": \"" + std::string(stage) + "\""), std::string::npos);
+    }
+}
+
 TEST(Manual, IsSetWithoutWarningsAndHoldsEveryCommand) {
     const Answer page =
         call("bash -o pipefail -c '" HIBI_PROGRAM " manual | groff -man -ww -Tascii -P-c -P-b -P-u'");

@@ -95,6 +95,26 @@ TEST(Watch, SeesTheEventsOfABarPulledApartInTheirOrder) {
     EXPECT_EQ(e.time_of({EventName::separation, 0.25}), e.separation->time + 0.25);
 }
 
+TEST(UnbrokenBody, GivesTheSnapshotsOfMomentsBeforeTheFirstBreakBitForBit) {
+    Simulation<2> simulation = bar(0.02, 0.5);
+    for (int k = 0; k < 50; ++k) simulation.step();
+    const Snapshot expected = take_snapshot(simulation);
+    Motion<2> motion = copy_motion(simulation);
+    while (simulation.broken() < 3 && simulation.time() < 5) simulation.step();
+    ASSERT_GE(simulation.broken(), 3);
+    const Snapshot late = UnbrokenBody<2>(simulation).snapshot(std::move(motion));
+    EXPECT_EQ(late.time, expected.time);
+    EXPECT_EQ(late.step, expected.step);
+    EXPECT_TRUE(late.broken.empty());
+    EXPECT_EQ(late.displacement, expected.displacement);
+    EXPECT_EQ(late.velocity, expected.velocity);
+    EXPECT_EQ(late.bond_strain, expected.bond_strain);
+    EXPECT_EQ(late.damage, expected.damage);
+    EXPECT_EQ(late.energy, expected.energy);
+    EXPECT_EQ(late.stress, expected.stress);
+    EXPECT_NE(take_snapshot(simulation).stress, expected.stress);
+}
+
 TEST(Watch, WhatWasNeverConnectedCannotSeparate) {
     const std::vector<Notch<2>> through = {{.name = "through", .points = {{6, -1}, {6, 4}}}};
     Material m = test::concrete();

@@ -71,6 +71,18 @@ TEST_F(States, StateComesBackBitForBit) {
     EXPECT_EQ(s.stress, expected.stress);
 }
 
+TEST_F(States, OnlyTheArraysNamedAreRead) {
+    Snapshot expected = example::snapshot(20);
+    expected.angle = {0.1, -0.2, 1.0 / 3};
+    const Snapshot s = read_state(written(expected), topology_, {"displacement", "stress"});
+    EXPECT_EQ(s.displacement, expected.displacement);
+    EXPECT_EQ(s.stress, expected.stress);
+    EXPECT_EQ(s.time, expected.time);
+    EXPECT_EQ(s.broken, expected.broken);
+    EXPECT_TRUE(s.velocity.empty() && s.angle.empty() && s.bond_strain.empty() && s.damage.empty() &&
+                s.energy.empty());
+}
+
 TEST_F(States, WithoutAnglesNoneComeBack) {
     EXPECT_TRUE(read_state(written(example::snapshot(0)), topology_).angle.empty());
 }
@@ -83,7 +95,8 @@ Snapshot large_snapshot() {
     s.damage = s.energy = s.bond_strain;
     s.stress.resize(count);
     for (int i = 0; i < count; ++i) s.displacement.push_back(Vec3(i, 0.1 * i, 1.0 / (i + 1)));
-    s.velocity = s.displacement;
+    for (const Vec3& u : s.displacement) s.velocity.push_back(Vec3(u.x(), u.y(), 0));  // zeros are left out
+    for (int i = 0; i < count; i += 7) s.stress[i] = {1.0f / static_cast<float>(i + 1), 0, 0, -2, 0, 0};
     return s;
 }
 
@@ -92,6 +105,8 @@ TEST_F(States, ManyParticlesSurviveTheChunks) {
     topology_.reference_position.assign(expected.count(), Vec3(1, 2, 3));
     const Snapshot s = read_state(written(expected), topology_);
     EXPECT_TRUE(s.displacement == expected.displacement);
+    EXPECT_TRUE(s.velocity == expected.velocity);
+    EXPECT_TRUE(s.stress == expected.stress);
     EXPECT_TRUE(s.bond_strain == expected.bond_strain);
 }
 

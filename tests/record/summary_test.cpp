@@ -165,5 +165,21 @@ TEST(Frames, AreListedWithNullWhereNothingHappens) {
     EXPECT_EQ(json::parse(read_file(folder.path() / "frames.json")), expected);
 }
 
+TEST(Summary, ProfileIsThereWhereOneWasMadeAndComesBack) {
+    const TemporaryFolder folder;
+    RunSummary s = full_summary();
+    write_summary(folder.path(), s);
+    EXPECT_FALSE(json::parse(read_file(folder.path() / "run.json")).contains("profile"));
+    s.profile["draw"] = {{"read back", 0.25, 3}, {"overlay", 0.5, 4}};
+    write_summary(folder.path(), s);
+    const json profile = json::parse(read_file(folder.path() / "run.json")).at("profile");
+    EXPECT_EQ(profile.at("draw")[0].at("stage"), "read back");
+    const RunSummary back = read_summary(folder.path());
+    ASSERT_EQ(back.profile.at("draw").size(), 2u);
+    EXPECT_EQ(back.profile.at("draw")[1].name, "overlay");
+    EXPECT_EQ(back.profile.at("draw")[1].seconds, 0.5);
+    EXPECT_EQ(back.profile.at("draw")[1].calls, 4);
+}
+
 }  // namespace
 }  // namespace hibi

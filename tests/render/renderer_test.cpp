@@ -200,5 +200,30 @@ TEST(Renderer, MarksGrowWithThePicture) {
     EXPECT_LT(large / small, 50);
 }
 
+TEST(Renderer, WhatAnEarlierPictureShowedDoesNotShow) {
+    const Stage stage = pictures::cracked_plate();
+    Picture2 fewer = stage.picture;
+    fewer.intact.erase(fewer.intact.begin(), fewer.intact.begin() + 20);
+    fewer.broken.pop_back();
+    fewer.freshness.pop_back();
+    Renderer used(stage.view, stage.body);
+    for (const Picture2& picture : {stage.picture, fewer, fewer, stage.picture}) {
+        Image expected, actual;
+        Renderer(stage.view, stage.body).draw(picture, expected);
+        used.draw(picture, actual);
+        EXPECT_TRUE(actual.bgra == expected.bgra);
+    }
+}
+
+TEST(Renderer, BondsShowWhereTheirParticlesLieApart) {
+    Stage stage(120, 90, "dark");
+    stage.particle(30, 40, 20);
+    const Renderer renderer(stage.view, stage.body);
+    Camera2 camera = stage.picture.camera;
+    EXPECT_TRUE(renderer.shows_bonds(camera));
+    camera.scale = 0.1;  // 2 pixels apart
+    EXPECT_FALSE(renderer.shows_bonds(camera));
+}
+
 }  // namespace
 }  // namespace hibi
