@@ -159,7 +159,7 @@ if have xvfb-run xvfb && { /usr/bin/python3 -c "import vtk" 2> /dev/null || { ec
     peers+=(vtk)
 fi
 
-for round in $(seq "$rounds"); do
+for ((round = 0; round < rounds; ++round)); do
     hibi_frame >> hibi.ms
     for peer in "${peers[@]}"; do "${peer}_frame" >> "$peer.ms"; done
 done
@@ -173,5 +173,8 @@ for peer in "${peers[@]}"; do
 done
 if [ -n "${KEEP:-}" ]; then  # the pictures, to see that all draw the same
     [[ " ${peers[*]} " != *" vtk "* ]] || vtk_frame --write > /dev/null
-    mkdir -p "$KEEP" && cp run/poster.png lammps.*1.png vtk.png "$KEEP" 2> /dev/null || true
+    mkdir -p "$KEEP"
+    for picture in run/poster.png lammps.0001.png vtk.png; do
+        [ ! -e "$picture" ] || cp "$picture" "$KEEP"
+    done
 fi
