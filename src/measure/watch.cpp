@@ -53,6 +53,22 @@ namespace {
 
 constexpr int settling_steps = 100;
 
+/// Does a chain of intact bonds lead from i to j that is soon found? If not, there may be none.
+bool joined_nearby(const Bonds& bonds, int i, int j) {
+    constexpr std::size_t most = 500;  // particles; a full search walks them all
+    std::vector<int> queue{i};
+    std::unordered_set<int> seen{i};
+    for (std::size_t head = 0; head < queue.size() && queue.size() < most; ++head) {
+        for (int k = bonds.start[queue[head]]; k < bonds.start[queue[head] + 1]; ++k) {
+            const int next = bonds.other(bonds.bonds_of[k], queue[head]);
+            if (!bonds.is_intact(bonds.bonds_of[k]) || !seen.insert(next).second) continue;
+            if (next == j) return true;
+            queue.push_back(next);
+        }
+    }
+    return false;
+}
+
 int primary_load(const Physics& physics) {
     for (std::size_t l = 0; l < physics.loads.size(); ++l)
         if (physics.loads[l].primary) return static_cast<int>(l);
@@ -93,6 +109,10 @@ void Watch<Dim>::look() {
         just_broken_.push_back(
             {simulation_.time(), b, i, j, to_3d<Dim>(middle), simulation_.breaking_strains()[k]});
     }
+    // Most breaks leave both ends joined by a short way round: no new fragment, and no search for one.
+    for (const int b : simulation_.just_broken())
+        fragments_known_ =
+            fragments_known_ && joined_nearby(model.bonds, model.bonds.first[b], model.bonds.second[b]);
     cracks_.grow(model, simulation_.just_broken(), simulation_.time());
     const auto event = [&](int bond) {
         Event e{simulation_.time(), now.load, now.displacement, Vec3::Zero()};
@@ -130,10 +150,8 @@ bool Watch<Dim>::settled() const {
 
 template <int Dim>
 const Fragments& Watch<Dim>::fragments() {
-    if (fragments_at_ != simulation_.broken()) {
-        fragments_ = find_fragments(simulation_.model());
-        fragments_at_ = simulation_.broken();
-    }
+    if (!fragments_known_) fragments_ = find_fragments(simulation_.model());
+    fragments_known_ = true;
     return fragments_;
 }
 

@@ -67,7 +67,7 @@ class Watch {
     Events events_;
     Cracks<Dim> cracks_;
     Fragments fragments_;
-    int fragments_at_ = -1;  ///< broken bonds when they were counted
+    bool fragments_known_ = false;  ///< as the bonds are now
     bool peak_confirmed_ = false;
     std::vector<Break> just_broken_;
     double scale_ = 0, worst_ = 0, worst_before_break_ = 0, last_ = 0;
@@ -84,10 +84,10 @@ extern template Snapshot take_snapshot<2>(const Simulation<2>&);
 /// What a snapshot is derived from. Copying it takes far less time than deriving a snapshot.
 template <int Dim>
 struct Motion {
-    double time = 0;                                ///< (s)
+    double time = 0;  ///< (s)
     std::int64_t step = 0;
-    std::vector<Vec<Dim>> displacement, velocity;   ///< (m), (m/s)
-    std::vector<double> angle;                      ///< thesis variant only, else empty (rad)
+    std::vector<Vec<Dim>> displacement, velocity;  ///< (m), (m/s)
+    std::vector<double> angle;                     ///< thesis variant only, else empty (rad)
 };
 template <int Dim>
 Motion<Dim> copy_motion(const Simulation<Dim>& simulation);

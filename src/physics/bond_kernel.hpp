@@ -21,8 +21,7 @@ template <class Number>
 struct Pulling {
     Number spring{};    ///< 2 mu_i s_ij / |r0|^2 + 2 mu_j s_ji / |r0|^2 (N/m)
     Number mx{}, my{};  ///< (s_ij + s_ji) / 2 / |r0|^2 r0 (m^2): the bond's part in the pull of both ends
-    Number dx{},
-        dy{};  ///< (s_ij - s_ji) / 2 / |r0|^2 r0 (m^2): and in what their pulls differ; 0 deep inside
+    Number dx{}, dy{};  ///< (s_ij - s_ji) / 2 / |r0|^2 r0 (m^2): in their pulls' difference; 0 deep inside
     auto operator<=>(const Pulling&) const = default;
 };
 
@@ -103,7 +102,7 @@ struct State {
 
 /// The loops for one kind of processor, over chunks [begin, end).
 struct Loops {
-    const char* level;  ///< "x86-64-v3"
+    const char* level;  ///< of x86-64: "v2", "v3", "v4"; elsewhere "generic"
     /// Rotation and dilatation of every particle, as `diagonal` and `twist`. Returns whether some bond is
     /// beyond its limits; the first does not look.
     bool (*deform)(const Arrays&, int begin, int end);

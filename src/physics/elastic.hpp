@@ -49,6 +49,10 @@ class ElasticLaw {
     virtual void sum_forces(Model<Dim>& model, const std::function<void(int begin, int end)>& then = {}) = 0;
     /// All three.
     void forces(Model<Dim>& model);
+    /// Both of the above for some blocks of particles alone (rising): after breaks, for those in which the
+    /// ends of the broken bonds lie and their neighbours. All others must stand.
+    virtual void renew(Model<Dim>& model, const std::vector<int>& blocks,
+                       const std::function<void(int begin, int end)>& then) = 0;
 
     virtual LocalState<Dim> local(const Model<Dim>& model, int particle) const = 0;
     /// Of particles [begin, end), a block of parallel_for's; for displacements that it has been told of.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"
@@ -65,6 +66,22 @@ class MomentMatched final : public ElasticLaw<2> {
     void sum_forces(Model<2>& model, const std::function<void(int, int)>& then) override {
         const kernel::Arrays arrays = bonds_.arrays(&model.particles.force);
         parallel_for(model.particles.count(), [&](int begin, int end) {
+            loops_.sum_forces(arrays, chunk(begin), chunk(end));
+            if (then) then(begin, end);
+        });
+    }
+
+    void renew(Model<2>& model, const std::vector<int>& blocks,
+               const std::function<void(int, int)>& then) override {
+        const kernel::Arrays arrays = bonds_.arrays(&model.particles.force);
+        const auto each = [&](auto&& body) {
+            parallel_for(static_cast<int>(blocks.size()) * parallel_block, [&](int first, int) {
+                const int begin = blocks[first / parallel_block] * parallel_block;
+                body(begin, std::min(begin + parallel_block, model.particles.count()));
+            });
+        };
+        each([&](int begin, int end) { loops_.deform(arrays, chunk(begin), chunk(end)); });
+        each([&](int begin, int end) {
             loops_.sum_forces(arrays, chunk(begin), chunk(end));
             if (then) then(begin, end);
         });

@@ -377,7 +377,17 @@ void Simulation<Dim>::judge_and_break() {
     }
     if (just_broken_.empty()) return;
     break_bonds();
-    sum_forces();
+    std::vector<int> blocks;
+    for (const int b : just_broken_) {
+        for (const int i : {bonds.first[b], bonds.second[b]}) {
+            blocks.push_back(i / parallel_block);
+            for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k)
+                blocks.push_back(bonds.other(bonds.bonds_of[k], i) / parallel_block);
+        }
+    }
+    std::ranges::sort(blocks);
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    law_->renew(model_, blocks, [&](int begin, int end) { add_applied_forces(begin, end); });
 }
 
 /// Those of just_broken_; the displacements stay.

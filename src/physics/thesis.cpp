@@ -70,6 +70,11 @@ class ThesisLaw final : public ElasticLaw<2> {
         });
     }
 
+    void renew(Model<2>& model, const std::vector<int>&, const std::function<void(int, int)>& then) override {
+        deform(model);
+        sum_forces(model, then);
+    }
+
     double energy(const Model<2>& model) const override {
         return parallel_sum<double>(model.particles.count(), [&](int begin, int end) {
             double sum = 0;

@@ -115,6 +115,32 @@ TEST(UnbrokenBody, GivesTheSnapshotsOfMomentsBeforeTheFirstBreakBitForBit) {
     EXPECT_NE(take_snapshot(simulation).stress, expected.stress);
 }
 
+TEST(Watch, CountsTheFragmentsThatAFullSearchFinds) {
+    Material m = test::concrete();
+    m.break_strain = 0.01;
+    Model<2> model = plate(60, 40, 1, m);
+    // Blown apart from its middle.
+    for (int i = 0; i < model.particles.count(); ++i)
+        model.particles.velocity[i] = 0.15 * (model.particles.reference_position[i] - Vec<2>(30, 20));
+    model.particles.velocity[700] = {40, 0};
+    Simulation<2> simulation(model, {});
+    Watch<2> watch(simulation);
+    int most = 0;
+    for (int k = 0; k < 400; ++k) {
+        simulation.step();
+        watch.look();
+        if (simulation.just_broken().empty()) continue;
+        const Fragments full = find_fragments(simulation.model()), fast = watch.fragments();
+        ASSERT_EQ(fast.count, full.count);
+        ASSERT_EQ(fast.largest, full.largest);
+        ASSERT_EQ(fast.debris, full.debris);
+        most = std::max(most, full.count);
+    }
+    EXPECT_GT(simulation.broken(), 100);
+    EXPECT_GT(watch.fragments().debris, 0);
+    EXPECT_GT(most, 1);
+}
+
 TEST(Watch, WhatWasNeverConnectedCannotSeparate) {
     const std::vector<Notch<2>> through = {{.name = "through", .points = {{6, -1}, {6, 4}}}};
     Material m = test::concrete();

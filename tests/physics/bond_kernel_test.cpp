@@ -146,6 +146,24 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"OneRow", 2.1, {Box<2>{{0, 0}, {6, 0.5}}}}),
     [](const auto& param) { return std::string(param.param.name); });
 
+TEST(Loops, RenewedAfterBreaksAreThoseOfTheWholeBody) {
+    Material m = test::concrete();
+    m.break_strain = 0.02;
+    Model<2> model = test::plate(100, 60, 1, m);  // six blocks
+    const BondWeights weights = moment_matched_weights(model);
+    for (int i = 0; i < model.particles.count(); ++i)
+        model.particles.velocity[i].y() = model.particles.reference_position[i].x() < 30 ? 20 : 0;
+    Simulation<2> simulation(model, {});
+    int breaking_steps = 0;
+    for (int k = 0; k < 200 && breaking_steps < 20; ++k) {
+        simulation.step();
+        if (simulation.just_broken().empty()) continue;
+        ++breaking_steps;
+        EXPECT_TRUE(simulation.model().particles.force == test::plain_forces(simulation.model(), weights));
+    }
+    EXPECT_EQ(breaking_steps, 20);
+}
+
 TEST(Loops, OfEveryLevelGiveOneRunBitForBit) {
     const auto positions = [](const char* name) {
         const Level level(name);
