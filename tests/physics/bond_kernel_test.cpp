@@ -132,6 +132,10 @@ TEST_P(Loops, NameTheBlockOfABondBeyondItsLimitAndNoOther) {
     EXPECT_NE(stretched(0.2), std::vector<int>{});
     law->remove(model_.bonds, weak);
     EXPECT_EQ(stretched(0.0006), std::vector<int>{});
+    for (std::size_t i = 0; i < u.size(); ++i)
+        u[i] = -2 * model_.particles.reference_position[i];  // half a turn
+    law->displaced(model_, 0, model_.particles.count());
+    EXPECT_EQ(law->deform(model_), std::vector<int>{});
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -145,6 +149,18 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ThreeColumns", 2.1, {Box<2>{{0, 0}, {1.5, 20}}}},
                     Case{"OneRow", 2.1, {Box<2>{{0, 0}, {6, 0.5}}}}),
     [](const auto& param) { return std::string(param.param.name); });
+
+TEST(Simulation, HoldsParticlesWhereverTheyStandInABlock) {
+    Model<2> model = test::plate(60, 30, 1);  // two blocks
+    const std::vector<int> held = test::where(model, [](const Vec<2>& X) { return X.x() > 58; });
+    for (Vec<2>& v : model.particles.velocity) v = {1, 0.5};
+    Physics physics;
+    physics.holds = {{"right", held, {true, true, false}}};
+    Simulation<2> simulation(model, physics);
+    for (int k = 0; k < 50; ++k) simulation.step();
+    for (const int i : held) EXPECT_TRUE(simulation.model().particles.displacement[i].isZero(0));
+    EXPECT_GT(simulation.model().particles.displacement[0].x(), 0);
+}
 
 TEST(Loops, RenewedAfterBreaksAreThoseOfTheWholeBody) {
     Material m = test::concrete();
