@@ -53,7 +53,6 @@ using Lanes = double[lanes];
 struct Record {
     std::int32_t offset = 0;
     std::int32_t kind = 0;  ///< into kinds, if the chunk is uniform
-    bool operator==(const Record&) const = default;
 };
 
 /// What the particles of a uniform chunk have in common, and what differs from lane to lane in all others.

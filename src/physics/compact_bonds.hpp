@@ -56,7 +56,6 @@ class CompactBonds {
     struct Slot {
         int neighbour = 0;
         kernel::Kind bond;
-        bool operator==(const Slot&) const = default;
     };
     using Slots = std::array<std::vector<Slot>, kernel::lanes>;  ///< of a chunk's particles
 
