@@ -4,9 +4,11 @@
 #include <stdexcept>
 
 #include "app/command_line.hpp"
+#include "base/memory.hpp"
 #include "scene/read.hpp"
 
 int main(int argc, char** argv) {
+    hibi::keep_freed_memory();
     try {
         return hibi::run_command_line(argc, argv);
     } catch (const hibi::SceneErrors& errors) {

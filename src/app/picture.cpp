@@ -26,36 +26,62 @@ PictureSource::PictureSource(const RunReader& run, const View& view, const std::
     std::ranges::stable_sort(by_time_of_break_, {}, [&](int b) { return run.broken_at()[b]; });
 }
 
-/// The state, read unless it is one of the two at hand; the one with number `keep` is not given up for it.
-const PictureSource::Loaded& PictureSource::load(int state, int keep) {
-    for (const Loaded& l : loaded_)
-        if (l.state == state) return l;
-    const TimedStage timed(profile_, "read states");
-    Loaded& free = loaded_[loaded_[0].state == keep ? 1 : 0];
-    const Snapshot snapshot = run_.read(state, {"displacement", scalar_field_source(view_.field)});
-    free.value = scalar_field(run_.topology(), snapshot, view_.field);
-    free.x.resize(snapshot.displacement.size());
-    free.y.resize(snapshot.displacement.size());
-    for (std::size_t i = 0; i < snapshot.displacement.size(); ++i) {
-        free.x[i] = snapshot.displacement[i].x();
-        free.y[i] = snapshot.displacement[i].y();
-    }
-    free.state = state;
-    return free;
-}
-
-Picture2& PictureSource::at(double time, bool with_intact) {
+PictureSource::Between PictureSource::between(double time) const {
     const std::vector<StateInfo>& states = run_.states();
     const auto after = std::ranges::upper_bound(states, time, {}, &StateInfo::time) - states.begin();
     const int last = static_cast<int>(states.size()) - 1;
     const int before = std::clamp(static_cast<int>(after) - 1, 0, last), next = std::min(before + 1, last);
     const double span = states[next].time - states[before].time;
     const double share = span > 0 ? std::clamp((time - states[before].time) / span, 0.0, 1.0) : 0;
-    const Loaded& a = load(before, next);
-    const Loaded& b = share > 0 ? load(next, before) : a;
+    return {before, share > 0 ? next : before, share};
+}
 
+PictureSource::Loaded PictureSource::read(int state) const {
+    const TimedStage timed(profile_, "read states");
+    const Snapshot snapshot = run_.read(state, {"displacement", scalar_field_source(view_.field)});
+    Loaded loaded{.value = scalar_field(run_.topology(), snapshot, view_.field)};
+    loaded.x.reserve(snapshot.displacement.size());
+    loaded.y.reserve(snapshot.displacement.size());
+    for (const Vec3& u : snapshot.displacement) {
+        loaded.x.push_back(u.x());
+        loaded.y.push_back(u.y());
+    }
+    return loaded;
+}
+
+void PictureSource::expect(double time) {
+    if (coming_.valid()) return;
+    const Between wanted = between(time);
+    std::vector<int> missing;
+    for (const int state : {wanted.before, wanted.after})
+        if (!loaded_.contains(state)) missing.push_back(state);
+    if (missing.empty()) return;
+    coming_ = std::async(std::launch::async, [this, missing] {
+        States states;
+        for (const int state : missing)
+            if (!states.contains(state)) states[state] = read(state);
+        return states;
+    });
+}
+
+void PictureSource::load(const Between& wanted) {
+    if (coming_.valid()) {
+        const TimedStage timed(profile_, "wait for states");
+        loaded_.merge(coming_.get());
+    }
+    for (const int state : {wanted.before, wanted.after})
+        if (!loaded_.contains(state)) loaded_[state] = read(state);
+    std::erase_if(loaded_, [&](const auto& entry) {
+        return entry.first != wanted.before && entry.first != wanted.after;
+    });
+}
+
+Picture2& PictureSource::at(double time, bool with_intact) {
+    const Between wanted = between(time);
+    load(wanted);
+    const Loaded &a = loaded_.at(wanted.before), &b = loaded_.at(wanted.after);
     const TimedStage timed(profile_, "interpolate");
-    interpolate(a, b, share);
+    interpolate(a, b, wanted.share);
     sort_bonds(time, with_intact);
     picture_.freshness.assign(picture_.broken.size(), 0);
     picture_.history.clear();

@@ -1,5 +1,7 @@
 #pragma once
 #include <array>
+#include <future>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +13,8 @@
 
 namespace hibi {
 
-/// Turns recorded states into pictures at any moment, in any order, but cheaply only with rising time: two
-/// states are kept. Displacements and values are interpolated between states, bonds never: one is broken iff
+/// Turns recorded states into pictures at any moment, in any order, but cheaply only with rising time: no more
+/// than two states are kept. Displacements and values are interpolated between states, bonds never: one is broken iff
 /// broken_at <= time.
 class PictureSource {
  public:
@@ -23,16 +25,25 @@ class PictureSource {
     /// Everything but camera and freshness, which is 0, and history, which is empty; intact bonds only if
     /// wanted. It is the caller's until the next call.
     Picture2& at(double time, bool with_intact = true);
+    /// Begins to read what the picture at this time needs, on a thread of its own.
+    void expect(double time);
     const std::vector<double>& x() const { return x_; }  ///< of the last picture, particle by particle (m)
     const std::vector<double>& y() const { return y_; }
 
  private:
     struct Loaded {
-        int state = -1;
         std::vector<double> x, y;  ///< displacement (m)
         std::vector<float> value;
     };
-    const Loaded& load(int state, int keep);
+    /// Where a time lies: two states, or one twice, and the part of the way to the second.
+    struct Between {
+        int before = 0, after = 0;
+        double share = 0;
+    };
+    using States = std::map<int, Loaded>;  ///< by number
+    Between between(double time) const;
+    Loaded read(int state) const;
+    void load(const Between& wanted);
     void interpolate(const Loaded& before, const Loaded& after, double share);
     void sort_bonds(double time, bool with_intact);
 
@@ -42,7 +53,8 @@ class PictureSource {
     StageTimes* profile_;
     std::optional<std::vector<int>> intact_candidates_{};  ///< found when they are first wanted
     std::vector<int> by_time_of_break_;
-    Loaded loaded_[2];
+    States loaded_;
+    std::future<States> coming_;
     std::vector<double> x_, y_;
     Picture2 picture_;
     std::optional<std::size_t> intact_at_{};  ///< number of broken bonds that picture_.intact belongs to

@@ -17,7 +17,7 @@ double processor_seconds() {
 }
 
 StageTimes drawing_stages() {
-    return StageTimes({"prepare", "wait for the writers", "read states", "interpolate", "place symbols",
+    return StageTimes({"prepare", "wait for the writers", "wait for states", "read states", "interpolate", "place symbols",
                        "upload", "draw calls", "rasterise", "read back", "overlay", "hash", "write PNG",
                        "encode", "write poster", "finish"});
 }

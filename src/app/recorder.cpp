@@ -10,10 +10,37 @@ namespace {
 
 /// Nobody knows how long a run will last: rows come every few steps, and later in proportion to the time.
 constexpr double first_row_steps = 8, rows_per_time = 2000;
-/// States come evenly and are thinned out later.
-constexpr double first_state_steps = 16;
+/// States come evenly and are thinned out later; those of the failure begin denser.
+constexpr double first_state_steps = 16, first_failure_steps = 2;
 /// States in the ring, four per interval of the even ones.
 constexpr std::size_t ring_size = 8;
+/// Part of a body that a wave crosses between two states: it cannot be seen to have moved.
+constexpr double unseen_way = 0.01;
+/// Part of a film that shows the failure and half as much time again, unless the scene says otherwise: TimeMap.
+constexpr double failure_share = 0.6;
+
+/// What a wave takes from end to end of the body, by about the stable time step from one particle to the next (s);
+/// 0 in statics.
+double crossing_time(const Simulation<2>& simulation) {
+    const Particles<2>& particles = simulation.model().particles;
+    Vec<2> low = particles.reference_position.front(), high = low;
+    for (const Vec<2>& x : particles.reference_position) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    const double spacing = *std::ranges::min_element(particles.spacing);
+    return (high - low).maxCoeff() / spacing * simulation.stable_time_step();
+}
+
+/// About one state per frame; even, and not few for a short film either.
+std::size_t states_for(double frames) {
+    return 2 * std::max<std::size_t>(25, static_cast<std::size_t>(frames / 2));
+}
+
+/// When the run ends for certain (s), if it waits for no event.
+std::optional<double> known_end(const RunSpec& run) {
+    if (run.statics || (run.until && run.until->event)) return {};
+    return run.until ? std::min(run.until->offset, run.max_time) : run.max_time;
+}
+
+bool shown_slowly(const SlowSpec& slow) { return slow.around.event && *slow.around.event != EventName::start; }
 
 }  // namespace
 
@@ -38,15 +65,22 @@ Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>
       watch_(watch),
       writer_(writer),
       profile_(profile),
-      most_(2 * std::max<std::size_t>(25, scene.movie.frames() / 2)),  // even; about one state per frame
       tick_(simulation.physics().statics ? simulation.physics().statics->pause() / first_state_steps
                                          : simulation.time_step()),
-      even_(0, first_state_steps * tick_, most_) {
+      unseen_(unseen_way * crossing_time(simulation)),
+      even_(0, first_even_interval(scene), states_for(scene.movie.frames())),
+      failure_interval_(std::max(first_failure_steps * tick_, unseen_)),
+      failure_most_(states_for(failure_share * scene.movie.frames())) {
     for (const SlowSpec& slow : scene.movie.slow) {
-        if (slow.around.event && *slow.around.event != EventName::start) continue;
+        const std::size_t most = states_for(scene.movie.frames());
+        const double interval = slow.span / static_cast<double>(most);
+        if (shown_slowly(slow)) {
+            failure_interval_ = std::min(failure_interval_, std::max(first_failure_steps * tick_, interval));
+            failure_most_ = most;
+            continue;
+        }
         const double begin = slow.around.offset - slow.span / 5;
-        spans_.push_back(
-            {begin, begin + slow.span, EvenStates(begin, slow.span / static_cast<double>(most_), most_)});
+        spans_.push_back({begin, begin + slow.span, EvenStates(begin, interval, most)});
     }
     std::vector<std::string> names;
     for (const Load& load : simulation.physics().loads) names.push_back(load.name);
@@ -55,13 +89,20 @@ Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>
     keep(even_);
 }
 
+/// So that no state is written that is dropped again, where the end is known.
+double Recorder::first_even_interval(const Scene& scene) const {
+    const std::optional<double> end = known_end(scene.run);
+    return std::max({first_state_steps * tick_, unseen_,
+                     end ? *end / static_cast<double>(states_for(scene.movie.frames()) - 1) : 0});
+}
+
 void Recorder::look() {
     const double time = simulation_.time();
     const Events& events = watch_.events();
     if (!watch_.just_broken().empty()) writer_.breaks(watch_.just_broken());
 
     const double interval =
-        std::max(first_row_steps * tick_, simulation_.physics().statics ? 0 : time / rows_per_time);
+        std::max({first_row_steps * tick_, unseen_, simulation_.physics().statics ? 0 : time / rows_per_time});
     const bool event = (events.first_break && events.first_break->time == time) ||
                        (events.separation && events.separation->time == time);
     if (event || time - last_row_ >= (watch_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
@@ -71,7 +112,7 @@ void Recorder::look() {
         if (time <= span.end && span.states.due(time)) keep(span.states);
 
     if (!events.first_break) {
-        if (time - last_ring_ < even_.interval() / 4) return;
+        if (time - last_ring_ < std::max(even_.interval() / 4, failure_interval_)) return;
         last_ring_ = time;
         if (ring_.size() == ring_size) ring_.pop_front();
         const TimedStage timed(profile_, "take states");
@@ -80,8 +121,7 @@ void Recorder::look() {
     }
     if (!failure_) {
         write_ring();
-        failure_.emplace(time, 2 * tick_, most_);
-        failure_end_ = std::numeric_limits<double>::infinity();
+        failure_.emplace(time, failure_interval_, failure_most_);
     }
     if (events.separation && !separation_kept_) {
         separation_kept_ = true;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -54,6 +55,7 @@ class Recorder {
     void write_now();
     void write_row();
     void write_ring();
+    double first_even_interval(const Scene& scene) const;
     void keep(EvenStates& series);
     void write_state(Snapshot state);
 
@@ -63,13 +65,16 @@ class Recorder {
     StageTimes* profile_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
     double last_row_ = 0, imbalance_ = 0, largest_strain_ = 0;
-    std::size_t most_ = 0;
     /// What rows and states are counted in: the time step (s). A static run has few and dear steps, of which
     /// none should be missed: a part of the shortest.
     double tick_ = 0;
+    /// In a shorter time nothing is seen to move (s): a large body takes many steps to change. 0 in statics.
+    double unseen_ = 0;
     EvenStates even_;
+    double failure_interval_ = 0;  ///< (s)
+    std::size_t failure_most_ = 0;
     std::optional<EvenStates> failure_;  ///< from first break on
-    double failure_end_ = 0;
+    double failure_end_ = std::numeric_limits<double>::infinity();
     struct Span {
         double begin, end;
         EvenStates states;

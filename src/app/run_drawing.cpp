@@ -97,13 +97,18 @@ int RunDrawing::draw(int frame, Image& image) {
         over.event = label->text;
         over.event_strength = label->strength;
     }
-    return draw(plan().time[frame], plan().film_time(frame), std::move(over), image);
+    const std::optional<double> next = frame + 1 < static_cast<int>(plan().time.size())
+                                           ? std::optional(plan().time[frame + 1])
+                                           : std::nullopt;
+    return draw(plan().time[frame], plan().film_time(frame), next, std::move(over), image);
 }
 
-int RunDrawing::draw_at(double time, Image& image) { return draw(time, plan().map.film(time), {}, image); }
+int RunDrawing::draw_at(double time, Image& image) { return draw(time, plan().map.film(time), {}, {}, image); }
 
-int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& image) {
+int RunDrawing::draw(double time, double film_time, std::optional<double> next, OverlayFrame over,
+                     Image& image) {
     Picture2& picture = source_.at(time, renderer_.shows_bonds(camera_));
+    if (next) source_.expect(*next);
     picture.camera = camera_;
     const std::vector<double>& broken_at = run_.broken_at();
     if (style_.history) {

@@ -46,7 +46,7 @@ class RunDrawing {
     double pixels_per_metre() const { return camera_.scale; }
 
  private:
-    int draw(double time, double film_time, OverlayFrame over, Image& image);
+    int draw(double time, double film_time, std::optional<double> next, OverlayFrame over, Image& image);
     void place_symbols(double time, OverlayFrame& over) const;
     double load_size(int load, double time) const;
     OverlayContent content(const Scene& scene) const;

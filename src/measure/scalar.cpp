@@ -17,7 +17,7 @@ using Stress = std::array<float, 6>;  // xx, yy, zz, xy, yz, xz (Pa)
 /// meaning (none in plane stress, a reaction in plane strain), of space in three.
 double largest_principal(const Stress& s, int dimension) {
     const double xx = s[0], yy = s[1], xy = s[3];
-    if (dimension == 2) return (xx + yy) / 2 + std::hypot((xx - yy) / 2, xy);
+    if (dimension == 2) return (xx + yy) / 2 + std::sqrt((xx - yy) * (xx - yy) / 4 + xy * xy);
     Mat<3> tensor;
     tensor << s[0], s[3], s[5],  //
         s[3], s[1], s[4],        //

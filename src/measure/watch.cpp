@@ -197,10 +197,16 @@ float single(double value) {
     return static_cast<float>(std::clamp(value, -largest, largest));
 }
 
-/// (L - L0) / L0 from (L^2 - L0^2) / L0^2; infinite at worst.
-double strain(double growth) {
-    const double ratio = std::sqrt(1 + growth);
-    return growth < 1 ? growth / (1 + ratio) : ratio - 1;
+/// Rising.
+std::vector<int> broken_bonds(const Bonds& bonds) {
+    std::vector<std::vector<int>> of_block(block_count(bonds.count()));
+    parallel_for(bonds.count(), [&](int begin, int end) {
+        for (int b = begin; b < end; ++b)
+            if (!bonds.is_intact(b)) of_block[begin / parallel_block].push_back(b);
+    });
+    std::vector<int> broken;
+    for (const std::vector<int>& some : of_block) broken.insert(broken.end(), some.begin(), some.end());
+    return broken;
 }
 
 /// `local_states(begin, end)` gives the states of a block of particles.
@@ -215,13 +221,13 @@ Snapshot make_snapshot(const Model<Dim>& model, double time, std::int64_t step, 
     s.displacement.resize(n);
     s.velocity.resize(n);
     if (model.spin) s.angle = model.spin->angle;
-    for (int b = 0; b < bonds.count(); ++b) {
-        if (bonds.is_intact(b)) continue;
-        s.broken.push_back(b);
+    s.broken = broken_bonds(bonds);
+    s.damage.assign(n, 0);
+    for (const int b : s.broken) {
         s.broken_at.push_back(bonds.broken_at[b]);
+        for (const int i : {bonds.first[b], bonds.second[b]}) ++s.damage[i];
     }
     s.bond_strain.resize(n);
-    s.damage.resize(n);
     s.energy.resize(n);
     s.stress.resize(n);
     parallel_for(n, [&](int begin, int end) {
@@ -229,28 +235,9 @@ Snapshot make_snapshot(const Model<Dim>& model, double time, std::int64_t step, 
         for (int i = begin; i < end; ++i) {
             s.displacement[i] = to_3d<Dim>(particles.displacement[i]);
             s.velocity[i] = to_3d<Dim>(particles.velocity[i]);
-            // By (L^2 - L0^2) / L0^2, which needs no root, the longest and the shortest; then the larger
-            // strain of the two.
-            double longest = 0, shortest = 0;
-            int broken = 0;
-            const int count = bonds.start[i + 1] - bonds.start[i];
-            for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
-                const int b = bonds.bonds_of[k];
-                if (!bonds.is_intact(b)) {
-                    ++broken;
-                    continue;
-                }
-                const Vec<Dim>& r0 = model.bond_vectors[b];
-                const Vec<Dim> du =
-                    particles.displacement[bonds.second[b]] - particles.displacement[bonds.first[b]];
-                const double growth = (2 * r0.dot(du) + du.squaredNorm()) / r0.squaredNorm();
-                longest = std::max(longest, growth);
-                shortest = std::min(shortest, growth);
-            }
-            const double tension = strain(longest), compression = strain(shortest);
-            s.bond_strain[i] = single(tension >= -compression ? tension : compression);
-            s.damage[i] = count > 0 ? static_cast<float>(broken) / static_cast<float>(count) : 0;
+            if (s.damage[i] > 0) s.damage[i] /= static_cast<float>(bonds.start[i + 1] - bonds.start[i]);
             const LocalState<Dim>& local = locals[i - begin];
+            s.bond_strain[i] = single(local.bond_strain);
             s.energy[i] = single(local.energy);
             Mat<3> stress = Mat<3>::Zero();
             stress.template topLeftCorner<Dim, Dim>() = local.stress;

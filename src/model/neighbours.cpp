@@ -26,7 +26,7 @@ std::vector<std::pair<int, int>> neighbours(const std::vector<Vec<Dim>>& points,
     for (int i = 0; i < n; ++i) sorted[i] = {cell_of(points[i]), i};
     std::sort(sorted.begin(), sorted.end());
 
-    std::vector<std::vector<std::pair<int, int>>> found((n + parallel_block - 1) / parallel_block);
+    std::vector<std::vector<std::pair<int, int>>> found(block_count(n));
     parallel_for(n, [&](int begin, int end) {
         auto& mine = found[begin / parallel_block];
         for (int i = begin; i < end; ++i) {

@@ -97,6 +97,7 @@ struct State {
     double energy = 0;              ///< (J)
     double dilatation = 0;          ///< D_i [-]
     double xx = 0, yy = 0, xy = 0;  ///< Cauchy stress of the surviving bonds (Pa), current frame
+    double longest = 0, shortest = 0;  ///< (L^2 - L0^2) / L0^2 of the bonds, 0 among them [-]
 };
 
 /// The loops for one kind of processor, over chunks [begin, end).

@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -17,6 +19,27 @@ double bond_strain(const Vec<Dim>& r0, const Vec<Dim>& du) {
     return (2 * r0.dot(du) + du.squaredNorm()) / (rest * (rest + (r0 + du).norm()));
 }
 
+/// Of some bonds' strains the one that is largest in size, found without a root for each.
+struct LargestStrain {
+    double longest = 0, shortest = 0;  ///< (L^2 - L0^2) / L0^2 [-]
+
+    void look(double growth) {
+        longest = std::max(longest, growth);
+        shortest = std::min(shortest, growth);
+    }
+    /// Signed; infinite at worst [-].
+    double strain() const {
+        const double tension = strain_of(longest), compression = strain_of(shortest);
+        return tension >= -compression ? tension : compression;
+    }
+
+ private:
+    static double strain_of(double growth) {
+        const double ratio = std::sqrt(1 + growth);
+        return growth < 1 ? growth / (1 + ratio) : ratio - 1;
+    }
+};
+
 /// Bounds of a bond in the form the hot loop compares, (L^2 - L0^2) / L0^2: it breaks above `upper` or below
 /// `lower`.
 struct BreakLimits {
@@ -29,6 +52,7 @@ struct LocalState {
     double energy = 0;      ///< (J)
     Mat<Dim> stress{};      ///< Cauchy stress of the surviving bonds (Pa), current frame
     double dilatation = 0;  ///< D_i [-]
+    double bond_strain = 0; ///< of the surviving bond of largest strain in size, signed [-]
 };
 
 /// An elastic law: one discrete energy of the model's displacements (and angles, where it has them) and its
@@ -40,17 +64,16 @@ class ElasticLaw {
 
     /// The displacements of particles [begin, end) have changed since the last call.
     virtual void displaced(const Model<Dim>& model, int begin, int end) = 0;
-    /// What each particle's neighbourhood has become; then come the forces. Returns in which blocks of
-    /// particles (of parallel_block each, rising) bonds may be beyond their limits: of such a bond, the block
-    /// of its first particle.
-    virtual std::vector<int> deform(const Model<Dim>& model) = 0;
     /// Overwrites particles.force, and spin.torque where there is one, with -dU/du (N) and -dU/dtheta (N m).
-    /// `then`, if given, is called for every block of particles once its forces stand.
-    virtual void sum_forces(Model<Dim>& model, const std::function<void(int begin, int end)>& then = {}) = 0;
-    /// All three.
-    void forces(Model<Dim>& model);
-    /// Both of the above for some blocks of particles alone (rising): after breaks, for those in which the
-    /// ends of the broken bonds lie and their neighbours. All others must stand.
+    /// `then`, if given, is called for every block of particles (of parallel_block each) once its forces stand;
+    /// it must leave displacements alone. Returns in which blocks, rising, bonds may be beyond their limits: of
+    /// such a bond, the block of its first particle.
+    virtual std::vector<int> sum_forces(Model<Dim>& model,
+                                        const std::function<void(int begin, int end)>& then = {}) = 0;
+    /// Both.
+    std::vector<int> forces(Model<Dim>& model);
+    /// The forces of some blocks of particles alone (rising): after breaks, for those in which the ends of the
+    /// broken bonds lie and their neighbours. All others must stand.
     virtual void renew(Model<Dim>& model, const std::vector<int>& blocks,
                        const std::function<void(int begin, int end)>& then) = 0;
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "physics/block_order.hpp"
 #include "physics/bond_kernel.hpp"
 #include "physics/compact_bonds.hpp"
 #include "physics/dilatation.hpp"
@@ -49,6 +50,7 @@ class MomentMatched final : public ElasticLaw<2> {
  public:
     MomentMatched(const Model<2>& model, const BreakLimits& limits)
         : bonds_(model, moment_matched_weights(model), dilatation_moduli(model), limits),
+          order_(model.bonds),
           loops_(kernel::loops()),
           watches_(!limits.upper.empty()) {}
 
@@ -56,35 +58,23 @@ class MomentMatched final : public ElasticLaw<2> {
         bonds_.read(model.particles.displacement, begin, end);
     }
 
-    std::vector<int> deform(const Model<2>& model) override {
-        const kernel::Arrays arrays = bonds_.arrays(nullptr);
-        const auto loop = watches_ ? loops_.deform_and_watch : loops_.deform;
-        return blocks_where(model.particles.count(),
-                            [&](int begin, int end) { return loop(arrays, chunk(begin), chunk(end)); });
-    }
-
-    void sum_forces(Model<2>& model, const std::function<void(int, int)>& then) override {
+    std::vector<int> sum_forces(Model<2>& model, const std::function<void(int, int)>& then) override {
         const kernel::Arrays arrays = bonds_.arrays(&model.particles.force);
-        parallel_for(model.particles.count(), [&](int begin, int end) {
-            loops_.sum_forces(arrays, chunk(begin), chunk(end));
-            if (then) then(begin, end);
-        });
+        const auto loop = watches_ ? loops_.deform_and_watch : loops_.deform;
+        std::vector<char> beyond(block_count(model.particles.count()));
+        order_.walk([&](int b) { beyond[b] = loop(arrays, first_chunk(b), end_chunk(model, b)); },
+                    [&](int b) { sum_forces(arrays, model, b, then); });
+        return true_places(beyond);
     }
 
     void renew(Model<2>& model, const std::vector<int>& blocks,
                const std::function<void(int, int)>& then) override {
         const kernel::Arrays arrays = bonds_.arrays(&model.particles.force);
-        const auto each = [&](auto&& body) {
-            parallel_for(static_cast<int>(blocks.size()) * parallel_block, [&](int first, int) {
-                const int begin = blocks[first / parallel_block] * parallel_block;
-                body(begin, std::min(begin + parallel_block, model.particles.count()));
-            });
-        };
-        each([&](int begin, int end) { loops_.deform(arrays, chunk(begin), chunk(end)); });
-        each([&](int begin, int end) {
-            loops_.sum_forces(arrays, chunk(begin), chunk(end));
-            if (then) then(begin, end);
+        const int count = static_cast<int>(blocks.size());
+        parallel_blocks(count, [&](int k) {
+            loops_.deform(arrays, first_chunk(blocks[k]), end_chunk(model, blocks[k]));
         });
+        parallel_blocks(count, [&](int k) { sum_forces(arrays, model, blocks[k], then); });
     }
 
     double energy(const Model<2>& model) const override {
@@ -108,13 +98,16 @@ class MomentMatched final : public ElasticLaw<2> {
         const Mat<2> R = p.rotation();
         LocalState<2> state;
         Mat<2> strain = Mat<2>::Zero();  // sym(R^T A) - M, in the particle's own frame
+        LargestStrain largest;
         bonds_.each_bond(i, [&](int j, const Vec<2>& r0, double own) {
-            const Vec<2> stretch = u[j] - u[i] - p.change(r0);  // r - R r0
+            const Vec<2> du = u[j] - u[i], stretch = du - p.change(r0);  // the second r - R r0
+            largest.look((2 * r0.dot(du) + du.squaredNorm()) / r0.squaredNorm());
             state.energy += mu * own * stretch.squaredNorm();
             strain += own / volume * (R.transpose() * stretch) * r0.transpose();
         });
         strain = (strain + strain.transpose()).eval() / 2;
         state.dilatation = p.dilatation;
+        state.bond_strain = largest.strain();
         state.energy += lambda * volume * p.dilatation * p.dilatation / 2;
         state.stress = R * (2 * mu * strain + lambda * p.dilatation * Mat<2>::Identity()) * R.transpose();
         return state;
@@ -129,6 +122,7 @@ class MomentMatched final : public ElasticLaw<2> {
             local[k].energy = s.energy;
             local[k].dilatation = s.dilatation;
             local[k].stress << s.xx, s.xy, s.xy, s.yy;
+            local[k].bond_strain = LargestStrain{s.longest, s.shortest}.strain();
         }
         return local;
     }
@@ -140,8 +134,20 @@ class MomentMatched final : public ElasticLaw<2> {
  private:
     /// Of a particle at the border of a block: blocks hold whole chunks.
     static int chunk(int particle) { return (particle + kernel::lanes - 1) / kernel::lanes; }
+    static int first_chunk(int block) { return chunk(block * parallel_block); }
+    static int end_of(const Model<2>& model, int block) {
+        return std::min((block + 1) * parallel_block, model.particles.count());
+    }
+    static int end_chunk(const Model<2>& model, int block) { return chunk(end_of(model, block)); }
+
+    void sum_forces(const kernel::Arrays& arrays, const Model<2>& model, int block,
+                    const std::function<void(int, int)>& then) const {
+        loops_.sum_forces(arrays, first_chunk(block), end_chunk(model, block));
+        if (then) then(block * parallel_block, end_of(model, block));
+    }
 
     mutable CompactBonds bonds_;  ///< keeps a copy of the displacements
+    BlockOrder order_;
     const kernel::Loops& loops_;
     bool watches_;
 };
@@ -158,11 +164,10 @@ std::unique_ptr<ElasticLaw<2>> make_elastic_law<2>(const Model<2>& model, Elasti
 }
 
 template <int Dim>
-void ElasticLaw<Dim>::forces(Model<Dim>& model) {
+std::vector<int> ElasticLaw<Dim>::forces(Model<Dim>& model) {
     parallel_for(model.particles.count(), [&](int begin, int end) { displaced(model, begin, end); });
-    deform(model);
-    sum_forces(model);
+    return sum_forces(model);
 }
-template void ElasticLaw<2>::forces(Model<2>&);
+template std::vector<int> ElasticLaw<2>::forces(Model<2>&);
 
 }  // namespace hibi

@@ -138,11 +138,8 @@ void Simulation<Dim>::list_stages() {
           [this] { kick_and_drift(); });
     if (!driven_.empty()) stage("prescribed motion", [this] { prescribe_motion(); });
     if (!applied_.empty()) stage("applied loads", [this] { update_loads(time_step_); });
-    std::string deform =
-        model_.spin ? "dilatation (thesis variant)" : "rotation and dilatation (moment-matched)";
-    if (can_break()) deform += ", watch limits";
-    stage(deform.c_str(), [this] { suspects_ = law_->deform(model_); });
-    std::string forces = model_.spin ? "bond forces and torques" : "bond forces";
+    std::string forces = model_.spin ? "bond forces and torques (thesis variant)" : "bond forces (moment-matched)";
+    if (can_break()) forces += ", watch limits";
     if (physics_.gravity) forces += ", gravity";
     stage((forces + ", half kick").c_str(), [this] { sum_forces_and_kick(); });
     if (can_break())
@@ -294,7 +291,7 @@ void Simulation<Dim>::update_loads(double step) {
 
 template <int Dim>
 void Simulation<Dim>::list_applied_forces() {
-    const int n = model_.particles.count(), blocks = (n + parallel_block - 1) / parallel_block;
+    const int n = model_.particles.count(), blocks = block_count(n);
     for (int l = 0; l < static_cast<int>(loads_.size()); ++l)
         for (int k = 0; k < static_cast<int>(loads_[l].force.size()); ++k)
             applied_.push_back({physics_.loads[l].particles[k], l, k});
@@ -307,7 +304,7 @@ void Simulation<Dim>::list_applied_forces() {
 
 template <int Dim>
 void Simulation<Dim>::prepare_blocks() {
-    const int n = model_.particles.count(), blocks = (n + parallel_block - 1) / parallel_block;
+    const int n = model_.particles.count(), blocks = block_count(n);
     damped_in_block_.resize(blocks);
     kinetic_in_block_.resize(blocks);
     for (int b = 0; b < blocks; ++b) {
@@ -335,13 +332,12 @@ void Simulation<Dim>::add_applied_forces(int begin, int end) {
 template <int Dim>
 void Simulation<Dim>::sum_forces() {
     parallel_for(model_.particles.count(), [&](int begin, int end) { law_->displaced(model_, begin, end); });
-    suspects_ = law_->deform(model_);
-    law_->sum_forces(model_, [&](int begin, int end) { add_applied_forces(begin, end); });
+    suspects_ = law_->sum_forces(model_, [&](int begin, int end) { add_applied_forces(begin, end); });
 }
 
 template <int Dim>
 void Simulation<Dim>::sum_forces_and_kick() {
-    law_->sum_forces(model_, [&](int begin, int end) {
+    suspects_ = law_->sum_forces(model_, [&](int begin, int end) {
         add_applied_forces(begin, end);
         damped_in_block_[begin / parallel_block] = kick(begin, end);
         kinetic_in_block_[begin / parallel_block] = kinetic_energy_of(begin, end);

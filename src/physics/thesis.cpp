@@ -28,20 +28,16 @@ class ThesisLaw final : public ElasticLaw<2> {
 
     void displaced(const Model<2>&, int, int) override {}
 
-    std::vector<int> deform(const Model<2>& model) override {
-        const Particles<2>& particles = model.particles;
-        return blocks_where(particles.count(), [&](int begin, int end) {
-            bool beyond = false;
+    std::vector<int> sum_forces(Model<2>& model, const std::function<void(int, int)>& then) override {
+        Particles<2>& particles = model.particles;
+        std::vector<char> beyond(block_count(particles.count()), false);
+        parallel_for(particles.count(), [&](int begin, int end) {
             for (int i = begin; i < end; ++i) {
                 dilatation_[i] = dilatation(particles, *model.spin, i);
-                if (!list_.upper.empty()) beyond |= list_.is_beyond_limits(particles.displacement, i);
+                if (!list_.upper.empty() && list_.is_beyond_limits(particles.displacement, i))
+                    beyond[begin / parallel_block] = true;
             }
-            return beyond;
         });
-    }
-
-    void sum_forces(Model<2>& model, const std::function<void(int, int)>& then) override {
-        Particles<2>& particles = model.particles;
         const std::vector<Vec<2>>& u = particles.displacement;
         Spin& spin = *model.spin;
         parallel_for(particles.count(), [&](int begin, int end) {
@@ -68,10 +64,10 @@ class ThesisLaw final : public ElasticLaw<2> {
             }
             if (then) then(begin, end);
         });
+        return true_places(beyond);
     }
 
     void renew(Model<2>& model, const std::vector<int>&, const std::function<void(int, int)>& then) override {
-        deform(model);
         sum_forces(model, then);
     }
 
@@ -91,14 +87,18 @@ class ThesisLaw final : public ElasticLaw<2> {
         const double volume = particles.volume[i], D = dilatation(particles, *model.spin, i);
         LocalState<2> state;
         Mat<2> strain = Mat<2>::Zero();
+        LargestStrain largest;
         for (int k = list_.start[i]; k < list_.start[i + 1]; ++k) {
             const Rotated t = rotated(*model.spin, i, list_.neighbour[k], list_.r0[k]);
-            const Vec<2> stretch = u[list_.neighbour[k]] - u[i] - t.change;
+            const Vec<2>& r0 = list_.r0[k];
+            const Vec<2> du = u[list_.neighbour[k]] - u[i], stretch = du - t.change;
+            largest.look((2 * r0.dot(du) + du.squaredNorm()) / r0.squaredNorm());
             state.energy += mu * list_.own[k] * stretch.squaredNorm();
             strain += list_.own[k] / volume * stretch * (list_.r0[k] + t.change).transpose();
         }
         strain = (strain + strain.transpose()).eval() / 2;
         state.dilatation = D;
+        state.bond_strain = largest.strain();
         state.energy += lambda * volume * D * D / 2;
         state.stress = 2 * mu * strain + lambda * D * Mat<2>::Identity();
         return state;

@@ -45,11 +45,19 @@ std::size_t column_chunk(hid_t dataset, hid_t type) {
 }
 
 /// Are these numbers, so many bytes apart, zeros bit for bit?
-bool all_zero(const std::uint8_t* numbers, std::size_t stride, std::size_t count, std::size_t size) {
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t k = 0; k < size; ++k)
-            if (numbers[i * stride + k] != 0) return false;
+template <class Bits>
+bool all_zero(const std::uint8_t* numbers, std::size_t stride, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        Bits bits;
+        std::memcpy(&bits, numbers + i * stride, sizeof bits);
+        if (bits != 0) return false;
+    }
     return true;
+}
+bool all_zero(const std::uint8_t* numbers, std::size_t stride, std::size_t count, std::size_t size) {
+    if (size == 8) return all_zero<std::uint64_t>(numbers, stride, count);
+    if (size == 4) return all_zero<std::uint32_t>(numbers, stride, count);
+    return all_zero<std::uint8_t>(numbers, stride, count);
 }
 
 HdfHandle properties(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }

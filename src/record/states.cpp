@@ -53,6 +53,24 @@ void each_point_array(Some& snapshot, Visit&& visit) {
     visit("stress", snapshot.stress);
 }
 
+/// Smallest and largest; what is no number does not count. In lanes, or each number would wait for the last.
+std::array<float, 2> range_of(const std::vector<float>& values) {
+    constexpr std::size_t lanes = 16;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    std::array<float, lanes> low, high;
+    low.fill(infinity);
+    high.fill(-infinity);
+    const auto look = [&](std::size_t lane, float value) {
+        low[lane] = value < low[lane] ? value : low[lane];
+        high[lane] = value > high[lane] ? value : high[lane];
+    };
+    std::size_t i = 0;
+    for (; i + lanes <= values.size(); i += lanes)
+        for (std::size_t lane = 0; lane < lanes; ++lane) look(lane, values[i + lane]);
+    for (; i < values.size(); ++i) look(0, values[i]);
+    return {*std::ranges::min_element(low), *std::ranges::max_element(high)};
+}
+
 void write_extent(HdfFile& file, const Topology& topology, const Snapshot& snapshot,
                   const std::vector<Vec3>& position) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -64,13 +82,9 @@ void write_extent(HdfFile& file, const Topology& topology, const Snapshot& snaps
     file.attribute("/Hibi", "low", std::vector<Vec3>{low});
     file.attribute("/Hibi", "high", std::vector<Vec3>{high});
     file.group("/Hibi/range");
-    for (const std::string& name : scalar_field_names()) {
-        std::array<float, 2> range = {std::numeric_limits<float>::infinity(),
-                                      -std::numeric_limits<float>::infinity()};
-        for (const float value : scalar_field(topology, snapshot, name))
-            range = {std::min(range[0], value), std::max(range[1], value)};
-        file.attribute("/Hibi/range", name, std::vector<std::array<float, 2>>{range});
-    }
+    for (const std::string& name : scalar_field_names())
+        file.attribute("/Hibi/range", name,
+                       std::vector{range_of(scalar_field(topology, snapshot, name))});
 }
 
 }  // namespace

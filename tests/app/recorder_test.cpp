@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+
+#include "support/plates.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace hibi {
 namespace {
@@ -36,6 +40,91 @@ TEST(EvenStates, GoOnWhereTheIntervalIsLostInTheDigitsOfTheTime) {
     states.keep(1, 1);  // came to no end when it added intervals up
     EXPECT_FALSE(states.due(1));
     EXPECT_TRUE(states.due(1.001));
+}
+
+/// A bar torn apart by its own motion, recorded until `max_time`.
+struct Recorded {
+    double stable_time_step = 0, time_step = 0;
+    std::int64_t written = 0;    ///< states, those dropped later included
+    std::vector<double> before;  ///< times of the states up to first break (s)
+    std::vector<double> after;   ///< and from there on
+};
+Recorded record(int columns, const Scene& scene, double break_strain) {
+    Material material = test::concrete();
+    material.break_strain = break_strain;
+    Model<2> model = test::plate(columns, 3, 1, material);
+    for (int i = 0; i < model.particles.count(); ++i)
+        model.particles.velocity[i].x() = 0.5 * (model.particles.reference_position[i].x() - columns / 2.0);
+    Simulation<2> simulation(std::move(model), {});
+    Watch<2> watch(simulation);
+    const TemporaryFolder folder;
+    StageTimes times({});
+    RunWriter writer(folder.path(), {}, &times);
+    Topology topology;
+    for (const Vec<2>& X : simulation.model().particles.reference_position)
+        topology.reference_position.push_back(to_3d<2>(X));
+    topology.spacing.assign(topology.reference_position.size(), 1);
+    topology.body.assign(topology.reference_position.size(), 0);
+    topology.body_names = {"bar"};
+    topology.first = simulation.model().bonds.first;
+    topology.second = simulation.model().bonds.second;
+    topology.rest_length = simulation.model().bonds.rest_length;
+    writer.topology(topology);
+    Recorder recorder(scene, simulation, watch, writer);
+    while (simulation.time() < scene.run.max_time) {
+        simulation.step();
+        watch.look();
+        recorder.look();
+    }
+    recorder.finish();
+    writer.finish({});
+    Recorded recorded{.stable_time_step = simulation.stable_time_step(), .time_step = simulation.time_step()};
+    for (const StageTime& stage : times.list())
+        if (stage.name == "write states") recorded.written = stage.calls;
+    const double first_break = watch.events().first_break ? watch.events().first_break->time : 1e9;
+    for (const StateInfo& state : RunReader(folder.path()).states())
+        (state.time <= first_break ? recorded.before : recorded.after).push_back(state.time);
+    return recorded;
+}
+
+double shortest_interval(const std::vector<double>& times) {
+    double shortest = 1e9;
+    for (std::size_t k = 1; k < times.size(); ++k) shortest = std::min(shortest, times[k] - times[k - 1]);
+    return shortest;
+}
+
+Scene film_of(double max_time) {
+    Scene scene;
+    scene.run.max_time = max_time;
+    scene.movie.duration = 4;
+    scene.movie.fps = 25;
+    return scene;
+}
+
+TEST(Recorder, WritesNoStateInVainWhereTheEndIsKnown) {
+    const double step = record(20, film_of(0), 10).time_step;
+    const Recorded known = record(20, film_of(3000 * step), 10);
+    EXPECT_EQ(known.written, static_cast<std::int64_t>(known.before.size()));
+    EXPECT_GE(known.written, 99);  // for 100 frames
+    EXPECT_LE(known.written, 102);
+    Scene until_event = film_of(3000 * step);
+    until_event.run.until = Moment{EventName::separation, 0};
+    EXPECT_GT(record(20, until_event, 10).written, 130);
+}
+
+TEST(Recorder, LooksMoreSeldomAtALargeBodyWhereWavesNeedLonger) {
+    Scene scene = film_of(0);
+    const double step = record(1000, scene, 0.01).time_step;
+    scene.run.max_time = 600 * step;
+    const Recorded large = record(1000, scene, 0.01);
+    // Two even series, every 20 steps at the densest, and what the ring held.
+    ASSERT_NEAR(large.stable_time_step, 2 * step, 0.01 * step);
+    EXPECT_LE(large.written, 2 * (600 / 20) + 12);
+    EXPECT_GE(large.after.size(), 10u);
+    const Recorded small = record(100, scene, 0.01);
+    EXPECT_LT(shortest_interval(small.after), 2.5 * step);
+    scene.movie.slow = {{.around = {EventName::first_break, 0}, .span = 300 * step, .rate = 0.1}};
+    EXPECT_LT(shortest_interval(record(1000, scene, 0.01).after), 3.5 * step);
 }
 
 }  // namespace

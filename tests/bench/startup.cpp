@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "base/memory.hpp"
 #include "physics/simulation.hpp"
 #include "support/plates.hpp"
 
@@ -38,6 +39,7 @@ void report(const char* stage, double particles, double bonds) {
 }  // namespace
 
 int main(int count, char** words) {
+    keep_freed_memory();
     const double side = std::round(std::sqrt(count > 1 ? std::atof(words[1]) : 1e6));
     fmt::print("{:<40} {:>10} {:>10} {:>11}\n", "", "stage", "so far", "memory");
     report("start", 0, 0);

@@ -111,6 +111,7 @@ TEST_P(Loops, StatesAreThoseOfEachParticle) {
             const LocalState<2> one = law->local(model_, i);
             EXPECT_NEAR(states[i - begin].energy, one.energy, 1e-13 * scale);
             EXPECT_NEAR(states[i - begin].dilatation, one.dilatation, 1e-14);
+            EXPECT_EQ(states[i - begin].bond_strain, one.bond_strain);
             EXPECT_LT((states[i - begin].stress - one.stress).norm(), 1e-13 * scale) << i;
         }
     }
@@ -125,7 +126,7 @@ TEST_P(Loops, NameTheBlockOfABondBeyondItsLimitAndNoOther) {
     const auto stretched = [&](double strain) {
         for (std::size_t i = 0; i < u.size(); ++i) u[i] = strain * model_.particles.reference_position[i];
         law->displaced(model_, 0, model_.particles.count());
-        return law->deform(model_);
+        return law->sum_forces(model_);
     };
     EXPECT_EQ(stretched(0.0004), std::vector<int>{});
     EXPECT_EQ(stretched(0.0006), std::vector<int>{model_.bonds.first[weak] / parallel_block});
@@ -135,7 +136,7 @@ TEST_P(Loops, NameTheBlockOfABondBeyondItsLimitAndNoOther) {
     for (std::size_t i = 0; i < u.size(); ++i)
         u[i] = -2 * model_.particles.reference_position[i];  // half a turn
     law->displaced(model_, 0, model_.particles.count());
-    EXPECT_EQ(law->deform(model_), std::vector<int>{});
+    EXPECT_EQ(law->sum_forces(model_), std::vector<int>{});
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -240,13 +240,26 @@ void sum_forces(const Arrays& a, int begin, int end) {
     }
 }
 
+/// Largest and smallest (L^2 - L0^2) / L0^2 of some bonds, and 0.
+struct Growth {
+    Chunkful longest = 0.0, shortest = 0.0;
+    HIBI_INLINE void look(const Chunkful& growth, const Chunkful& square) {
+        for (int k = 0; k < registers; ++k) {
+            Register g = growth.part[k] / square.part[k];
+            stdx::where(square.part[k] == 0, g) = 0.0;  // no bond
+            stdx::where(g > longest.part[k], longest.part[k]) = g;
+            stdx::where(g < shortest.part[k], shortest.part[k]) = g;
+        }
+    }
+};
+
 /// R^T sum_j s_ij / |r0|^2 (r - R r0) (x) r0, which is V times the strain before it is made symmetric.
 struct Strain {
     Chunkful xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
 };
 
 /// U_i = mu sum_j s_ij |r - R_i r0|^2 / |r0|^2 + lambda V D_i^2 / 2, and with states the stress
-/// R (2 mu strain + lambda D I) R^T.
+/// R (2 mu strain + lambda D I) R^T and the extreme bonds.
 template <bool WithStates>
 HIBI_INLINE Chunkful energy_of(const Arrays& a, int c, State* states) {
     Some none;
@@ -255,10 +268,12 @@ HIBI_INLINE Chunkful energy_of(const Arrays& a, int c, State* states) {
     const Chunkful ux(a.ux + i), uy(a.uy + i);
     Chunkful springs = 0.0;
     Strain v;  // r - R r0 in place of its R^T multiple
+    Growth growth;
     each_record(a, c, [&](const Neighbours& neighbours, const auto& bond, int) {
         const Chunkful x(bond.resting().x), y(bond.resting().y), own(bond.resting().own);
-        const Chunkful dx = neighbours(a.ux) - ux - (p.cosine_less_one * x - p.sine * y);
-        const Chunkful dy = neighbours(a.uy) - uy - (p.sine * x + p.cosine_less_one * y);
+        const Chunkful dux = neighbours(a.ux) - ux, duy = neighbours(a.uy) - uy;
+        const Chunkful dx = dux - (p.cosine_less_one * x - p.sine * y);
+        const Chunkful dy = duy - (p.sine * x + p.cosine_less_one * y);
         springs = springs + own * (dx * dx + dy * dy);
         if constexpr (WithStates) {
             const Chunkful sx = own * x, sy = own * y;
@@ -266,6 +281,7 @@ HIBI_INLINE Chunkful energy_of(const Arrays& a, int c, State* states) {
             v.xy = v.xy + dx * sy;
             v.yx = v.yx + dy * sx;
             v.yy = v.yy + dy * sy;
+            growth.look(2.0 * (x * dux + y * duy) + (dux * dux + duy * duy), x * x + y * y);
         }
     });
     const Chunkful two_mu = of(a, c, a.two_mu, &Particle::two_mu);
@@ -282,12 +298,16 @@ HIBI_INLINE Chunkful energy_of(const Arrays& a, int c, State* states) {
         const Chunkful sxx = two_mu * exx + pressure, syy = two_mu * eyy + pressure, sxy = two_mu * exy;
         const Chunkful cc = cosine * cosine, ss = p.sine * p.sine, cs = cosine * p.sine;
         double energies[lanes], dilatation[lanes], xx[lanes], yy[lanes], xy[lanes];
+        double longest[lanes], shortest[lanes];
+        growth.longest.store(longest);
+        growth.shortest.store(shortest);
         energy.store(energies);
         p.dilatation.store(dilatation);
         (cc * sxx - 2.0 * cs * sxy + ss * syy).store(xx);
         (ss * sxx + 2.0 * cs * sxy + cc * syy).store(yy);
         (cs * (sxx - syy) + (cc - ss) * sxy).store(xy);
-        for (int l = 0; l < lanes; ++l) states[l] = {energies[l], dilatation[l], xx[l], yy[l], xy[l]};
+        for (int l = 0; l < lanes; ++l) 
+            states[l] = {energies[l], dilatation[l], xx[l], yy[l], xy[l], longest[l], shortest[l]};
     }
     return energy;
 }
