@@ -14,8 +14,10 @@ constexpr double first_row_steps = 8, rows_per_time = 2000;
 constexpr double first_state_steps = 16, first_failure_steps = 2;
 /// States in the ring, four per interval of the even ones.
 constexpr std::size_t ring_size = 8;
-/// Part of a body that a wave crosses between two states: it cannot be seen to have moved.
-constexpr double unseen_way = 0.01;
+/// Part of a body that a wave may cross between two states: so little that frames between them do not show it.
+constexpr double unseen_way = 0.02;
+/// Part of a series' interval by which a state may come too early for it.
+constexpr double near_enough = 0.5;
 /// Part of a film that shows the failure and half as much time again, unless the scene says otherwise: TimeMap.
 constexpr double failure_share = 0.6;
 
@@ -148,6 +150,7 @@ void Recorder::write_now() {
     std::optional<TimedStage> taking(std::in_place, profile_, "take states");
     Snapshot state = take_snapshot(simulation_);
     taking.reset();
+    last_written_ = state.step;
     write_state(std::move(state));
 }
 
@@ -173,10 +176,18 @@ void Recorder::write_row() {
     if (std::isfinite(row.imbalance)) writer_.row(row);
 }
 
+/// A state that another series has just recorded will do.
 void Recorder::keep(EvenStates& series) {
-    write_now();
-    for (const std::int64_t step : series.keep(simulation_.time(), simulation_.steps()))
-        if (--wanted_[step] == 0) writer_.drop_state(step);
+    const double since = static_cast<double>(simulation_.steps() - last_written_) * simulation_.time_step();
+    std::int64_t step = last_written_;
+    if (wanted_[step] > 0 && since < near_enough * series.interval()) {
+        ++wanted_[step];
+    } else {
+        write_now();
+        step = simulation_.steps();
+    }
+    for (const std::int64_t old : series.keep(simulation_.time(), step))
+        if (--wanted_[old] == 0) writer_.drop_state(old);
 }
 
 void Recorder::write_state(Snapshot state) {

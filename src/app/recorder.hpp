@@ -64,6 +64,7 @@ class Recorder {
     RunWriter& writer_;
     StageTimes* profile_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
+    std::int64_t last_written_ = -1;
     double last_row_ = 0, imbalance_ = 0, largest_strain_ = 0;
     /// What rows and states are counted in: the time step (s). A static run has few and dear steps, of which
     /// none should be missed: a part of the shortest.

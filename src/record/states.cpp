@@ -16,15 +16,19 @@ namespace {
 constexpr const char* point_data = "/VTKHDF/PointData/";
 constexpr const char* topology_file = "topology.hdf";
 
-std::vector<Vec3> positions(const Topology& topology, const Snapshot& snapshot) {
-    std::vector<Vec3> x(snapshot.count());
-    for (int i = 0; i < snapshot.count(); ++i)
-        x[i] = topology.reference_position[i] + snapshot.displacement[i];
-    return x;
+/// In single precision: for pictures. Displacements have all digits.
+using Point = std::array<float, 3>;
+std::vector<Point> positions(const Topology& topology, const Snapshot& snapshot) {
+    std::vector<Point> points;
+    points.reserve(snapshot.displacement.size());
+    for (int i = 0; i < snapshot.count(); ++i) {
+        const Vec3 x = topology.reference_position[i] + snapshot.displacement[i];
+        points.push_back({static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z())});
+    }
+    return points;
 }
 
-void write_grid(HdfFile& file, const Topology& topology, const Snapshot& snapshot,
-                const std::vector<Vec3>& position) {
+void write_grid(HdfFile& file, const Topology& topology, const Snapshot& snapshot) {
     const auto bonds = static_cast<std::int64_t>(topology.first.size());
     file.group("/VTKHDF");
     file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
@@ -34,7 +38,7 @@ void write_grid(HdfFile& file, const Topology& topology, const Snapshot& snapsho
     file.write("/VTKHDF/NumberOfConnectivityIds", std::vector<std::int64_t>{2 * bonds});
     for (const char* name : {"/VTKHDF/Connectivity", "/VTKHDF/Offsets", "/VTKHDF/Types"})
         file.link(name, topology_file, name);
-    file.write("/VTKHDF/Points", position);
+    file.write("/VTKHDF/Points", positions(topology, snapshot));
 
     std::vector<std::uint8_t> broken(bonds, 0);
     for (const int bond : snapshot.broken) broken[bond] = 1;
@@ -71,11 +75,11 @@ std::array<float, 2> range_of(const std::vector<float>& values) {
     return {*std::ranges::min_element(low), *std::ranges::max_element(high)};
 }
 
-void write_extent(HdfFile& file, const Topology& topology, const Snapshot& snapshot,
-                  const std::vector<Vec3>& position) {
+void write_extent(HdfFile& file, const Topology& topology, const Snapshot& snapshot) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec3 low = Vec3::Constant(infinity), high = -low;
-    for (const Vec3& x : position) {
+    for (int i = 0; i < snapshot.count(); ++i) {
+        const Vec3 x = topology.reference_position[i] + snapshot.displacement[i];
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
@@ -96,9 +100,8 @@ std::filesystem::path state_file(const std::filesystem::path& states, std::int64
 void write_state(const std::filesystem::path& states, const Topology& topology, const Snapshot& snapshot) {
     assert(topology.reference_position.size() == snapshot.displacement.size());
     const std::filesystem::path path = state_file(states, snapshot.step);
-    const std::vector<Vec3> position = positions(topology, snapshot);
     HdfFile file = HdfFile::create(part_of(path));
-    write_grid(file, topology, snapshot, position);
+    write_grid(file, topology, snapshot);
     file.group("/VTKHDF/PointData");
     each_point_array(snapshot, [&](const char* name, const auto& data) {
         file.write(point_data + std::string(name), data);
@@ -112,7 +115,7 @@ void write_state(const std::filesystem::path& states, const Topology& topology, 
     file.attribute("/Hibi", "step", std::vector<std::int64_t>{snapshot.step});
     file.write("/Hibi/broken", snapshot.broken);
     file.write("/Hibi/broken_at", snapshot.broken_at);
-    write_extent(file, topology, snapshot, position);
+    write_extent(file, topology, snapshot);
     file.close();
     rename_part(path);
 }

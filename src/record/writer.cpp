@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -83,7 +84,7 @@ struct RunWriter::Impl {
     std::exception_ptr error;
     std::thread worker;
 
-    /// In the worker: does the jobs in their order, so that a state can be dropped while it still waits.
+    /// In the worker: does the jobs in their order, so that a state is dropped after it was written.
     void work() {
         std::unique_lock lock(mutex);
         while (true) {
@@ -124,6 +125,17 @@ struct RunWriter::Impl {
         queued_bytes += job.bytes;
         queue.push_back(std::move(job));
         changed.notify_all();
+    }
+
+    /// True where the state of this step was still waiting to be written, and waits no longer.
+    bool cancel(std::int64_t step) {
+        const std::lock_guard lock(mutex);
+        const auto job = std::ranges::find_if(
+            queue, [&](const Job& waiting) { return waiting.write && waiting.write->step == step; });
+        if (job == queue.end()) return false;
+        queued_bytes -= job->bytes;
+        queue.erase(job);
+        return true;
     }
 
     void drain() {
@@ -202,7 +214,8 @@ void RunWriter::state(Snapshot snapshot) {
 }
 
 void RunWriter::drop_state(std::int64_t step) {
-    if (impl_->recorded.erase(step) > 0) impl_->add({.drop = step});
+    if (impl_->recorded.erase(step) == 0 || impl_->cancel(step)) return;
+    impl_->add({.drop = step});
 }
 
 void RunWriter::drain() { impl_->drain(); }

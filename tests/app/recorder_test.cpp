@@ -107,9 +107,6 @@ TEST(Recorder, WritesNoStateInVainWhereTheEndIsKnown) {
     EXPECT_EQ(known.written, static_cast<std::int64_t>(known.before.size()));
     EXPECT_GE(known.written, 99);  // for 100 frames
     EXPECT_LE(known.written, 102);
-    Scene until_event = film_of(3000 * step);
-    until_event.run.until = Moment{EventName::separation, 0};
-    EXPECT_GT(record(20, until_event, 10).written, 130);
 }
 
 TEST(Recorder, LooksMoreSeldomAtALargeBodyWhereWavesNeedLonger) {
@@ -117,12 +114,12 @@ TEST(Recorder, LooksMoreSeldomAtALargeBodyWhereWavesNeedLonger) {
     const double step = record(1000, scene, 0.01).time_step;
     scene.run.max_time = 600 * step;
     const Recorded large = record(1000, scene, 0.01);
-    // Two even series, every 20 steps at the densest, and what the ring held.
+    // Every 40 steps at the densest, for the body and for its failure in one, and what the ring held.
     ASSERT_NEAR(large.stable_time_step, 2 * step, 0.01 * step);
-    EXPECT_LE(large.written, 2 * (600 / 20) + 12);
+    EXPECT_LE(large.written, 600 / 40 + 12);
     EXPECT_GE(large.after.size(), 10u);
     const Recorded small = record(100, scene, 0.01);
-    EXPECT_LT(shortest_interval(small.after), 2.5 * step);
+    EXPECT_LT(shortest_interval(small.after), 4.5 * step);
     scene.movie.slow = {{.around = {EventName::first_break, 0}, .span = 300 * step, .rate = 0.1}};
     EXPECT_LT(shortest_interval(record(1000, scene, 0.01).after), 3.5 * step);
 }
