@@ -22,12 +22,13 @@ Estimate estimate_run(const Scene& scene, const Built<2>& built, Simulation<2>& 
     estimate.solve_seconds =
         seconds / static_cast<double>(std::max<std::int64_t>(1, done)) * static_cast<double>(estimate.steps);
 
-    // Rules of thumb from runs of 400 to a million particles: what a frame costs to draw and to keep, and
-    // that about one to two states are kept per frame of the film; those that wait to be written take at most
-    // 256 MB.
+    // Rules of thumb from runs of 400 to a million particles: what a frame costs to draw and to keep, and that
+    // about one state is kept per frame of the film, and as many again for every slow span; those that wait to
+    // be written take at most 256 MB.
     const double particles = built.model.particles.count(), bonds = built.model.bonds.count();
     const double pixels = static_cast<double>(scene.view.width) * scene.view.height;
-    const double frames = scene.movie.frames(), states = 2 * frames;
+    const double frames = scene.movie.frames();
+    const double states = (1.3 + static_cast<double>(scene.movie.slow.size())) * frames;
     estimate.draw_seconds = frames * (35e-9 * pixels + 0.4e-6 * particles);
     estimate.memory =
         45e6 + 300 * bonds + std::min(150 * 100 * particles, 256e6) + 1000 * particles + 60 * pixels;

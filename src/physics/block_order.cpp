@@ -31,7 +31,8 @@ BlockOrder::BlockOrder(const Bonds& bonds) {
         leads(bonds.first[b], bonds.second[b]);
         leads(bonds.second[b], bonds.first[b]);
     }
-    const int length = blocks < large_body ? 1 : std::max(1, blocks / (segments_per_thread * threads()));
+    const int segments = segments_per_thread * std::max(1, threads());
+    const int length = blocks < large_body ? 1 : std::max(1, blocks / segments);
     for (int begin = 0; begin < blocks; begin += length) segments_.push_back(begin);
     segments_.push_back(blocks);
     last_ = last;

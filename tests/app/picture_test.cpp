@@ -89,6 +89,27 @@ TEST_F(Picture, NearestBondsAreThoseOfTheLatticeSpacing) {
     EXPECT_TRUE(drawn_bonds(t, "none").empty());
 }
 
+TEST_F(Picture, ReadAheadIsTheSameWhicheverPictureCame) {
+    PictureSource ahead(*run_, View{}, {0, 1});
+    double expected = 0.1;
+    for (const double time : {0.0, 0.1, 0.13, 0.9, 0.9, 0.2, 2.0, 1.99}) {
+        const Picture2 plain = PictureSource(*run_, View{}, {0, 1}).at(time);
+        const Picture2& picture = ahead.at(time);
+        EXPECT_TRUE(picture.x == plain.x && picture.y == plain.y && picture.value == plain.value) << time;
+        EXPECT_TRUE(picture.broken == plain.broken) << time;
+        ahead.expect(expected);  // often wrongly
+        expected += 0.3;
+    }
+}
+
+TEST_F(Picture, ADamagedStateReadAheadIsAnErrorOfThePictureThatNeedsIt) {
+    PictureSource source(*run_, View{}, {0, 1});
+    source.at(0);
+    std::filesystem::resize_file(run_->states().at(20).file, 100);
+    source.expect(run_->states().at(20).time);
+    EXPECT_THROW(source.at(run_->states().at(20).time), std::runtime_error);
+}
+
 TEST_F(Picture, ValuesOutsideTheRangeAreHeldAtItsEnds) {
     PictureSource source(*run_, View{}, {-0.001, 0.001});
     for (const float v : source.at(1).value) {

@@ -71,6 +71,24 @@ TEST(Simulation, SameBitsOnOneTwoThreeAndEightThreads) {
     }
 }
 
+TEST(Simulation, LargeBodiesHaveTheSameBitsInWhateverSegmentsTheyAreWalked) {
+    std::vector<std::string> prints;
+    int broken = 0;
+    for (const int count : {1, 2, 3, 8}) {
+        set_threads(count);
+        Model<2> model = plate(300, 240, 1, breakable(0.02));  // 71 blocks
+        for (int i = 0; i < model.particles.count(); ++i)
+            model.particles.velocity[i].y() = model.particles.reference_position[i].x() < 30 ? 20 : 0;
+        Simulation<2> simulation(std::move(model), {});
+        for (int k = 0; k < 40; ++k) simulation.step();
+        broken = simulation.broken();
+        prints.push_back(fingerprint(simulation));
+    }
+    set_threads(0);
+    EXPECT_GE(broken, 20);
+    for (const std::string& print : prints) EXPECT_EQ(print, prints.front());
+}
+
 TEST(Simulation, EnergyBalancesUpToFirstBreakAndThroughBreaks) {
     for (const Elasticity elasticity : {Elasticity::moment_matched, Elasticity::thesis}) {
         Simulation<2> simulation = cantilever(20, elasticity);

@@ -78,6 +78,22 @@ TEST(RunFolder, DroppedStatesAreGoneEvenWhileTheyWait) {
     EXPECT_EQ(series["files"].size(), 10u);
 }
 
+TEST(RunFolder, StatesDroppedWhileTheyWaitAreNotWritten) {
+    const TemporaryFolder folder;
+    StageTimes times({});
+    constexpr int count = 200;
+    {
+        RunWriter writer(folder.path(), {}, &times);
+        writer.topology(example::topology());
+        writer.history_header({}, 2);
+        for (int step = 0; step < count; ++step) writer.state(example::snapshot(step));
+        for (int step = 1; step < count; ++step) writer.drop_state(step);
+        writer.finish({});
+    }
+    EXPECT_EQ(RunReader(folder.path()).states().size(), 1u);
+    EXPECT_LT(times.list().at(0).calls, count);
+}
+
 TEST(RunFolder, SecondStateOfAStepIsIgnored) {
     const TemporaryFolder folder;
     {
