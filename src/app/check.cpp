@@ -288,8 +288,7 @@ void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& 
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-    const Scene scene = read_scene(options.scene, options.overrides);
-    const Built<2> built = build(scene);
+    const auto [scene, built] = read_and_build(options.scene, options.overrides);
     Simulation<2> simulation(built.model, built.physics);
     require_separable(scene, Watch<2>(simulation));
     require_steps_that_end(scene, simulation);

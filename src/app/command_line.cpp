@@ -379,7 +379,7 @@ void add_preview(CLI::App& app, int& status) {
         std::vector<std::string> words{"hibi", "preview", o->scene.string()};
         for (const auto& [name, value] : o->overrides) words.insert(words.end(), {"-p", name + "=" + value});
         words.insert(words.end(), {"-o", o->png.string()});
-        draw_setup(read_scene(o->scene, o->overrides), o->png, o->renderer, shell_command(words));
+        draw_setup(read_and_build(o->scene, o->overrides), o->png, o->renderer, shell_command(words));
         fmt::print("{}\n", o->png.string());
         status = 0;
     });

@@ -48,7 +48,7 @@ struct PreviewOptions {
 
 /// The body as it stands before the run, with supports, loads at full size and notches. `command` goes into
 /// the picture.
-void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& renderer,
+void draw_setup(const BuiltScene& setup, const std::filesystem::path& png, const RendererOptions& renderer,
                 const std::string& command = {});
 
 }  // namespace hibi

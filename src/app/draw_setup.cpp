@@ -16,12 +16,13 @@
 
 namespace hibi {
 
-void draw_setup(const Scene& scene, const std::filesystem::path& png, const RendererOptions& options,
+void draw_setup(const BuiltScene& setup, const std::filesystem::path& png, const RendererOptions& options,
                 const std::string& command) {
     if (png.extension() != ".png" || std::filesystem::is_directory(png))
         throw std::runtime_error(
             fmt::format("{}: is no name of a PNG file; write for example -o setup.png", png.string()));
-    const Topology topology = topology_of(scene, build(scene));
+    const Scene& scene = setup.scene;
+    const Topology topology = topology_of(scene, setup.built);
     View view = scene.view;
     view.map = "viridis";  // stands for the body's number here, not for a field
     view.show = {"title", "scale_bar", "supports", "loads"};

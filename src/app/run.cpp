@@ -335,11 +335,10 @@ void require_steps_that_end(const Scene& scene, const Simulation<2>& simulation)
 
 int run_command(const RunOptions& options) {
     const Stopwatch total;
-    const Scene scene = read_scene(options.scene, options.overrides);
+    auto [scene, built] = read_and_build(options.scene, options.overrides);
     const fs::path folder = options.folder.value_or(fs::path("out") / options.scene.stem());
     refuse_other_scene(folder, options);
     note_plain_numbers(options);
-    Built<2> built = build(scene);
     Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
     std::vector<std::string> stages = simulation.stage_names();

@@ -174,8 +174,10 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
 
 namespace {
 
-Scene parse(const std::string& text, const std::string& name, const Overrides& overrides, bool assembled) {
-    Scene scene;
+BuiltScene parse(const std::string& text, const std::string& name, const Overrides& overrides,
+                 bool assembled) {
+    BuiltScene read;
+    Scene& scene = read.scene;
     scene.file = name;
     std::vector<SceneError> errors;
     Value document = parse_document(text, errors);
@@ -194,12 +196,12 @@ Scene parse(const std::string& text, const std::string& name, const Overrides& o
         !scene.loads.empty())
         scene.loads.front().primary = true;
     check_scene(scene, context.problems);
-    if (assembled) assemble(scene, context.problems);
+    if (assembled) read.built = assemble(scene, context.problems);
     if (!context.problems.errors().empty()) throw SceneErrors(name, text, context.problems.errors());
-    return scene;
+    return read;
 }
 
-Scene read(const std::filesystem::path& file, const Overrides& overrides, bool assembled) {
+BuiltScene read(const std::filesystem::path& file, const Overrides& overrides, bool assembled) {
     const auto refuse = [&](const std::string& message, const std::string& hint) {
         throw SceneErrors(file.string(), "", {SceneError{0, 0, 1, message, hint}});
     };
@@ -218,15 +220,19 @@ Scene read(const std::filesystem::path& file, const Overrides& overrides, bool a
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides) {
-    return parse(text, name, overrides, true);
+    return parse(text, name, overrides, true).scene;
 }
 
-Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+BuiltScene read_and_build(const std::filesystem::path& file, const Overrides& overrides) {
     return read(file, overrides, true);
 }
 
+Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
+    return read_and_build(file, overrides).scene;
+}
+
 Scene read_recorded_scene(const std::filesystem::path& folder) {
-    return read(folder / "scene.toml", {}, false);
+    return read(folder / "scene.toml", {}, false).scene;
 }
 
 std::string scene_hash(const Scene& scene) { return sha256(write_scene(scene)); }

@@ -28,7 +28,13 @@ class SceneErrors : public std::runtime_error {
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;  ///< -p name=value
 
-/// Reads and checks a scene, including that it can be built. Throws SceneErrors.
+struct BuiltScene {
+    Scene scene;
+    Built<2> built;
+};
+/// Reads, checks and builds a scene. Throws SceneErrors.
+BuiltScene read_and_build(const std::filesystem::path& file, const Overrides& overrides = {});
+/// Of a scene that can be built the description alone. Throws SceneErrors.
 Scene read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
 /// The scene in the folder of a run. That it can be built has been seen, and is not looked at again: that
 /// takes as long as building it.

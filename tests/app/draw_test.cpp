@@ -169,7 +169,7 @@ TEST(Draw, TheSetupShowsSupportsAndLoadsWithoutARun) {
     scene.view.height = 180;
     const auto setup = [&](std::vector<std::string> show) {
         scene.view.show = std::move(show);
-        draw_setup(scene, folder.path() / "setup.png", {});
+        draw_setup({scene, build(scene)}, folder.path() / "setup.png", {});
         return read_png(folder.path() / "setup.png");
     };
     const Image with = setup({"title", "supports", "loads"});

@@ -15,7 +15,7 @@ int main(int count, char** words) {
     keep_freed_memory();
     for (int k = 1; k < count; ++k) {
         const std::filesystem::path folder = words[k];
-        const Scene scene = read_scene(folder / "scene.toml", {});
+        const Scene scene = read_recorded_scene(folder);
         const RunReader run(folder);
         RunDrawing drawing(scene, run, film_style(scene, run), {});
         Image image(scene.view.width, scene.view.height);
