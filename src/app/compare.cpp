@@ -219,11 +219,11 @@ class Comparison {
     }
 
     /// Returns how many bonds are shown as broken.
-    int draw(int frame, Image& image) {
+    int draw(int frame, Image& image, std::optional<int> next = {}) {
         fill(image);
         int broken = 0;
         for (Member& m : members_) {
-            broken += m.drawing->draw(frame, panel_);
+            broken += m.drawing->draw(frame, panel_, next);
             const int x = static_cast<int>(m.cell.x), y = static_cast<int>(m.cell.y + label_row * text_);
             for (int row = 0; row < panel_.height; ++row)
                 std::memcpy(image.pixel(x, y + row), panel_.pixel(0, row),
@@ -403,7 +403,8 @@ void make_comparison(const CompareOptions& options) {
     for (int k = 0; k < comparison.frames(); ++k) {
         Image image = writer.take();
         FrameInfo info{.file = fmt::format("frames/{:06}.png", k), .time = comparison.clock(k), .sha256 = {}};
-        info.broken = comparison.draw(k, image);
+        info.broken =
+            comparison.draw(k, image, k + 1 < comparison.frames() ? std::optional(k + 1) : std::nullopt);
         for (const EventName name : comparison.plan(0).events[k]) info.events.push_back(to_string(name));
         if (const auto& event = comparison.plan(0).event[k]) info.event = to_string(*event);
         if (k == poster) write_png(options.output / "poster.png", image, {.text = texts, .small = true});

@@ -63,7 +63,7 @@ DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, con
     for (int k = 0; k < frames; ++k) {
         Image image = writer.take();
         FrameInfo info;
-        info.broken = drawing.draw(k, image);
+        info.broken = drawing.draw(k, image, k + 1 < frames ? std::optional(k + 1) : std::nullopt);
         info.file = fmt::format("frames/{:06}.png", k);
         info.time = plan.time[k];
         if (plan.event[k]) info.event = to_string(*plan.event[k]);

@@ -22,9 +22,9 @@ Estimate estimate_run(const Scene& scene, const Built<2>& built, Simulation<2>& 
     estimate.solve_seconds =
         seconds / static_cast<double>(std::max<std::int64_t>(1, done)) * static_cast<double>(estimate.steps);
 
-    // Rules of thumb from runs of 400 to a million particles: what a frame costs to draw and to keep, and that
-    // about one state is kept per frame of the film, and as many again for every slow span; those that wait to
-    // be written take at most 256 MB.
+    // Rules of thumb from runs of 400 to a million particles: what a frame costs to draw and to keep, and
+    // that about one state is kept per frame of the film, and as many again for every slow span; those that
+    // wait to be written take at most 256 MB.
     const double particles = built.model.particles.count(), bonds = built.model.bonds.count();
     const double pixels = static_cast<double>(scene.view.width) * scene.view.height;
     const double frames = scene.movie.frames();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <system_error>
 
 #include "measure/neighbour_bonds.hpp"
 
@@ -56,18 +58,25 @@ void PictureSource::expect(double time) {
     for (const int state : {wanted.before, wanted.after})
         if (!loaded_.contains(state)) missing.push_back(state);
     if (missing.empty()) return;
-    coming_ = std::async(std::launch::async, [this, missing] {
+    const auto read_them = [this, missing] {
         States states;
         for (const int state : missing)
             if (!states.contains(state)) states[state] = read(state);
         return states;
-    });
+    };
+    try {
+        coming_ = std::async(std::launch::async, read_them);
+    } catch (const std::system_error&) {  // no thread to be had: they are read when they are needed
+    }
 }
 
 void PictureSource::load(const Between& wanted) {
     if (coming_.valid()) {
         const TimedStage timed(profile_, "wait for states");
-        loaded_.merge(coming_.get());
+        try {
+            loaded_.merge(coming_.get());
+        } catch (const std::runtime_error&) {  // what is needed of it fails again below
+        }
     }
     for (const int state : {wanted.before, wanted.after})
         if (!loaded_.contains(state)) loaded_[state] = read(state);

@@ -13,19 +13,22 @@
 
 namespace hibi {
 
-/// Turns recorded states into pictures at any moment, in any order, but cheaply only with rising time: no more
-/// than two states are kept. Displacements and values are interpolated between states, bonds never: one is broken iff
-/// broken_at <= time.
+/// Turns recorded states into pictures at any moment, in any order, but cheaply only with rising time: two
+/// states are kept, and while others are read ahead those too. Displacements and values are interpolated
+/// between states, bonds never: one is broken iff broken_at <= time.
 class PictureSource {
  public:
     /// The run is kept as a reference.
     PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range,
                   StageTimes* profile = nullptr);
 
+    PictureSource(const PictureSource&) = delete;  // what is read ahead knows its place
+
     /// Everything but camera and freshness, which is 0, and history, which is empty; intact bonds only if
     /// wanted. It is the caller's until the next call.
     Picture2& at(double time, bool with_intact = true);
-    /// Begins to read what the picture at this time needs, on a thread of its own.
+    /// Begins to read what the picture at this time needs, on a thread of its own. A state that cannot be
+    /// read is an error of the picture that needs it.
     void expect(double time);
     const std::vector<double>& x() const { return x_; }  ///< of the last picture, particle by particle (m)
     const std::vector<double>& y() const { return y_; }

@@ -17,9 +17,9 @@ double processor_seconds() {
 }
 
 StageTimes drawing_stages() {
-    return StageTimes({"prepare", "wait for the writers", "wait for states", "read states", "interpolate", "place symbols",
-                       "upload", "draw calls", "rasterise", "read back", "overlay", "hash", "write PNG",
-                       "encode", "write poster", "finish"});
+    return StageTimes({"prepare", "wait for the writers", "wait for states", "read states", "interpolate",
+                       "place symbols", "upload", "draw calls", "rasterise", "read back", "overlay", "hash",
+                       "write PNG", "encode", "write poster", "finish"});
 }
 
 std::string profile_table(const std::string& title, const std::vector<StageTime>& stages, double wall) {

@@ -14,21 +14,30 @@ constexpr double first_row_steps = 8, rows_per_time = 2000;
 constexpr double first_state_steps = 16, first_failure_steps = 2;
 /// States in the ring, four per interval of the even ones.
 constexpr std::size_t ring_size = 8;
-/// Part of a body that a wave may cross between two states: so little that frames between them do not show it.
+/// Part of a body's smaller side that a wave may cross between two states of its failure.
 constexpr double unseen_way = 0.02;
 /// Part of a series' interval by which a state may come too early for it.
 constexpr double near_enough = 0.5;
-/// Part of a film that shows the failure and half as much time again, unless the scene says otherwise: TimeMap.
+/// Part of a film that shows the failure and half as much time again where the scene does not say: about, see
+/// TimeMap.
 constexpr double failure_share = 0.6;
 
-/// What a wave takes from end to end of the body, by about the stable time step from one particle to the next (s);
-/// 0 in statics.
+/// What a wave takes across a body's smaller side, by the stable time step or more from one particle to the
+/// next (s); of several bodies the shortest. 0 in statics.
 double crossing_time(const Simulation<2>& simulation) {
-    const Particles<2>& particles = simulation.model().particles;
-    Vec<2> low = particles.reference_position.front(), high = low;
-    for (const Vec<2>& x : particles.reference_position) low = low.cwiseMin(x), high = high.cwiseMax(x);
-    const double spacing = *std::ranges::min_element(particles.spacing);
-    return (high - low).maxCoeff() / spacing * simulation.stable_time_step();
+    const Model<2>& model = simulation.model();
+    const Particles<2>& particles = model.particles;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<Vec<2>> low(model.bodies.size(), Vec<2>::Constant(infinity)), high(low.size(), -low.front());
+    for (int i = 0; i < particles.count(); ++i) {
+        Vec<2>&l = low[particles.body[i]], &h = high[particles.body[i]];
+        l = l.cwiseMin(particles.reference_position[i]);
+        h = h.cwiseMax(particles.reference_position[i]);
+    }
+    double steps = infinity;
+    for (std::size_t b = 0; b < low.size(); ++b)
+        steps = std::min(steps, (high[b] - low[b]).minCoeff() / model.bodies[b].spacing);
+    return steps * simulation.stable_time_step();
 }
 
 /// About one state per frame; even, and not few for a short film either.
@@ -36,13 +45,14 @@ std::size_t states_for(double frames) {
     return 2 * std::max<std::size_t>(25, static_cast<std::size_t>(frames / 2));
 }
 
+/// Is it known beforehand when this will be?
+bool is_known(const Moment& moment) { return !moment.event || *moment.event == EventName::start; }
+
 /// When the run ends for certain (s), if it waits for no event.
 std::optional<double> known_end(const RunSpec& run) {
-    if (run.statics || (run.until && run.until->event)) return {};
+    if (run.statics || (run.until && !is_known(*run.until))) return {};
     return run.until ? std::min(run.until->offset, run.max_time) : run.max_time;
 }
-
-bool shown_slowly(const SlowSpec& slow) { return slow.around.event && *slow.around.event != EventName::start; }
 
 }  // namespace
 
@@ -70,19 +80,19 @@ Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>
       tick_(simulation.physics().statics ? simulation.physics().statics->pause() / first_state_steps
                                          : simulation.time_step()),
       unseen_(unseen_way * crossing_time(simulation)),
-      even_(0, first_even_interval(scene), states_for(scene.movie.frames())),
+      even_most_(states_for(scene.movie.frames())),
+      even_(0, first_even_interval(scene), even_most_),
       failure_interval_(std::max(first_failure_steps * tick_, unseen_)),
       failure_most_(states_for(failure_share * scene.movie.frames())) {
     for (const SlowSpec& slow : scene.movie.slow) {
-        const std::size_t most = states_for(scene.movie.frames());
-        const double interval = slow.span / static_cast<double>(most);
-        if (shown_slowly(slow)) {
+        const double interval = slow.span / static_cast<double>(even_most_);
+        if (!is_known(slow.around)) {
             failure_interval_ = std::min(failure_interval_, std::max(first_failure_steps * tick_, interval));
-            failure_most_ = most;
+            failure_most_ = even_most_;
             continue;
         }
         const double begin = slow.around.offset - slow.span / 5;
-        spans_.push_back({begin, begin + slow.span, EvenStates(begin, interval, most)});
+        spans_.push_back({begin, begin + slow.span, EvenStates(begin, interval, even_most_)});
     }
     std::vector<std::string> names;
     for (const Load& load : simulation.physics().loads) names.push_back(load.name);
@@ -94,8 +104,8 @@ Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>
 /// So that no state is written that is dropped again, where the end is known.
 double Recorder::first_even_interval(const Scene& scene) const {
     const std::optional<double> end = known_end(scene.run);
-    return std::max({first_state_steps * tick_, unseen_,
-                     end ? *end / static_cast<double>(states_for(scene.movie.frames()) - 1) : 0});
+    return std::max(
+        {first_state_steps * tick_, unseen_, end ? *end / static_cast<double>(even_most_ - 1) : 0});
 }
 
 void Recorder::look() {
@@ -103,8 +113,8 @@ void Recorder::look() {
     const Events& events = watch_.events();
     if (!watch_.just_broken().empty()) writer_.breaks(watch_.just_broken());
 
-    const double interval =
-        std::max({first_row_steps * tick_, unseen_, simulation_.physics().statics ? 0 : time / rows_per_time});
+    const double interval = std::max(
+        {first_row_steps * tick_, unseen_, simulation_.physics().statics ? 0 : time / rows_per_time});
     const bool event = (events.first_break && events.first_break->time == time) ||
                        (events.separation && events.separation->time == time);
     if (event || time - last_row_ >= (watch_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
@@ -114,7 +124,10 @@ void Recorder::look() {
         if (time <= span.end && span.states.due(time)) keep(span.states);
 
     if (!events.first_break) {
-        if (time - last_ring_ < std::max(even_.interval() / 4, failure_interval_)) return;
+        // As dense as the even states are, four times, or would be if the run ended now.
+        const double as_if_ended = time / static_cast<double>(2 * even_most_);
+        if (time - last_ring_ < std::max(std::min(even_.interval() / 4, as_if_ended), failure_interval_))
+            return;
         last_ring_ = time;
         if (ring_.size() == ring_size) ring_.pop_front();
         const TimedStage timed(profile_, "take states");
@@ -124,6 +137,7 @@ void Recorder::look() {
     if (!failure_) {
         write_ring();
         failure_.emplace(time, failure_interval_, failure_most_);
+        write_now();
     }
     if (events.separation && !separation_kept_) {
         separation_kept_ = true;
@@ -179,9 +193,10 @@ void Recorder::write_row() {
 /// A state that another series has just recorded will do.
 void Recorder::keep(EvenStates& series) {
     const double since = static_cast<double>(simulation_.steps() - last_written_) * simulation_.time_step();
+    const auto last = wanted_.find(last_written_);
     std::int64_t step = last_written_;
-    if (wanted_[step] > 0 && since < near_enough * series.interval()) {
-        ++wanted_[step];
+    if (last != wanted_.end() && last->second > 0 && since < near_enough * series.interval()) {
+        ++last->second;
     } else {
         write_now();
         step = simulation_.steps();

@@ -71,6 +71,7 @@ class Recorder {
     double tick_ = 0;
     /// In a shorter time nothing is seen to move (s): a large body takes many steps to change. 0 in statics.
     double unseen_ = 0;
+    std::size_t even_most_ = 0;
     EvenStates even_;
     double failure_interval_ = 0;  ///< (s)
     std::size_t failure_most_ = 0;

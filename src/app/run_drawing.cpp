@@ -91,22 +91,22 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, DrawingStyle st
     camera_ = camera();
 }
 
-int RunDrawing::draw(int frame, Image& image) {
+int RunDrawing::draw(int frame, Image& image, std::optional<int> next) {
     OverlayFrame over{.speed = plan().speed(frame)};
     if (const auto label = style_.event_labels ? plan().label(frame) : std::nullopt) {
         over.event = label->text;
         over.event_strength = label->strength;
     }
-    const std::optional<double> next = frame + 1 < static_cast<int>(plan().time.size())
-                                           ? std::optional(plan().time[frame + 1])
-                                           : std::nullopt;
-    return draw(plan().time[frame], plan().film_time(frame), next, std::move(over), image);
+    return draw(plan().time[frame], plan().film_time(frame), std::move(over), image,
+                next ? std::optional(plan().time[*next]) : std::nullopt);
 }
 
-int RunDrawing::draw_at(double time, Image& image) { return draw(time, plan().map.film(time), {}, {}, image); }
+int RunDrawing::draw_at(double time, Image& image) {
+    return draw(time, plan().map.film(time), {}, image, {});
+}
 
-int RunDrawing::draw(double time, double film_time, std::optional<double> next, OverlayFrame over,
-                     Image& image) {
+int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& image,
+                     std::optional<double> next) {
     Picture2& picture = source_.at(time, renderer_.shows_bonds(camera_));
     if (next) source_.expect(*next);
     picture.camera = camera_;

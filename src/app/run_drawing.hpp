@@ -38,15 +38,15 @@ class RunDrawing {
     const FilmPlan& plan() const { return style_.plan; }
     std::string renderer() const { return renderer_.description(); }
     /// The picture of a frame, everything included; cheapest in rising order. Returns how many bonds it shows
-    /// as broken.
-    int draw(int frame, Image& image);
+    /// as broken. What frame `next` needs is read meanwhile.
+    int draw(int frame, Image& image, std::optional<int> next = {});
     /// The picture of a simulated time (s) as the film shows it, without the label of an event.
     int draw_at(double time, Image& image);
     PixelRect plot() const { return overlay_.plot(); }  ///< the part of the picture that holds the body
     double pixels_per_metre() const { return camera_.scale; }
 
  private:
-    int draw(double time, double film_time, std::optional<double> next, OverlayFrame over, Image& image);
+    int draw(double time, double film_time, OverlayFrame over, Image& image, std::optional<double> next);
     void place_symbols(double time, OverlayFrame& over) const;
     double load_size(int load, double time) const;
     OverlayContent content(const Scene& scene) const;

@@ -1,28 +1,56 @@
 #include "base/memory.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #ifdef __GLIBC__
 #include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #endif
 
 namespace hibi {
 
-void keep_freed_memory() {
-#ifdef __GLIBC__
-    mallopt(M_MMAP_MAX, 0);         // large blocks come from the heap as well,
-    mallopt(M_TRIM_THRESHOLD, -1);  // which never shrinks
-    // The heap is stretched, without being used, over as much as the machine has, and marked for large pages.
-    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-    const std::size_t all = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * page;
-    void* const heap = std::malloc(all / 2);
-    if (!heap) return;
-    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(heap) + page - 1) / page * page;
-    madvise(reinterpret_cast<void*>(begin), all / 2 - 2 * page, MADV_HUGEPAGE);
-    std::free(heap);
-#endif
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+
+bool is_limited(decltype(RLIMIT_AS) what) {
+    rlimit limit{};
+    return getrlimit(what, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
 }
+
+bool promises_only_what_it_has() {
+    int policy = 0;
+    std::ifstream("/proc/sys/vm/overcommit_memory") >> policy;
+    return policy == 2;
+}
+
+}  // namespace
+
+void keep_freed_memory() {
+    if (is_limited(RLIMIT_AS) || is_limited(RLIMIT_DATA) || promises_only_what_it_has()) return;
+    mallopt(M_ARENA_MAX, 1);        // one heap for all threads,
+    mallopt(M_MMAP_MAX, 0);         // large blocks come from it as well,
+    mallopt(M_TRIM_THRESHOLD, -1);  // and it never shrinks.
+    // It is stretched, without being used, and marked for large pages.
+    constexpr std::uint64_t most = std::uint64_t{8} << 30;
+    const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    const std::uint64_t half = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * page / 2;
+    const auto size = static_cast<std::size_t>(std::min({half, most, std::uint64_t{SIZE_MAX} / 8}));
+    void* const heap = std::malloc(size);
+    if (!heap) return;
+    const auto begin = (reinterpret_cast<std::uintptr_t>(heap) + page - 1) / page * page;
+    madvise(reinterpret_cast<void*>(begin), size - 2 * page, MADV_HUGEPAGE);
+    std::free(heap);
+}
+
+#else
+
+void keep_freed_memory() {}
+
+#endif
 
 }  // namespace hibi

@@ -11,8 +11,8 @@ void set_threads(int count);
 /// Elements per block. Block borders depend on n alone, so sums have the same bits on any number of threads.
 inline constexpr int parallel_block = 1024;
 
-/// Calls run(body, b) for every b of [0, blocks), spread over the threads. The calling thread takes what no other
-/// has begun: it never waits for one that the machine keeps busy elsewhere.
+/// Calls run(body, b) for every b of [0, blocks), spread over the threads. The calling thread takes what no
+/// other has begun: it never waits for one that the machine keeps busy elsewhere.
 void run_blocks(int blocks, void (*run)(const void* body, int block), const void* body);
 
 /// Number of blocks that n elements make.
@@ -21,7 +21,8 @@ constexpr int block_count(int n) { return (n + parallel_block - 1) / parallel_bl
 /// Calls body(b) for every b of [0, blocks), spread over the threads.
 template <class Body>
 void parallel_blocks(int blocks, const Body& body) {
-    run_blocks(blocks, [](const void* of, int b) { (*static_cast<const Body*>(of))(b); }, &body);
+    run_blocks(
+        blocks, [](const void* of, int b) { (*static_cast<const Body*>(of))(b); }, &body);
 }
 
 /// Calls body(begin, end) for every block of [0, n), blocks spread over the threads.
@@ -49,6 +50,5 @@ T parallel_sum(int n, Body&& body) {
     for (const T& p : part) sum += p;
     return sum;
 }
-
 
 }  // namespace hibi

@@ -6,10 +6,10 @@
 
 namespace hibi {
 
-/// In which order the blocks of particles are walked where something is first done to each block, and then, once
-/// it is done to all blocks that a block's bonds lead to, something else. In a large body the second follows
-/// the first at a short distance, and finds in the cache what that has left: whole segments of blocks are walked
-/// so, and what touches another segment comes at the end.
+/// In which order the blocks of particles are walked where something is first done to each block, and then,
+/// once it is done to all blocks that a block's bonds lead to, something else. In a large body the second
+/// follows the first at a short distance, and finds in the cache what that has left: whole segments of blocks
+/// are walked so, and what touches another segment comes at the end.
 class BlockOrder {
  public:
     explicit BlockOrder(const Bonds& bonds);

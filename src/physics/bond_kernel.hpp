@@ -94,9 +94,9 @@ struct Arrays {
 
 /// What one particle feels.
 struct State {
-    double energy = 0;              ///< (J)
-    double dilatation = 0;          ///< D_i [-]
-    double xx = 0, yy = 0, xy = 0;  ///< Cauchy stress of the surviving bonds (Pa), current frame
+    double energy = 0;                 ///< (J)
+    double dilatation = 0;             ///< D_i [-]
+    double xx = 0, yy = 0, xy = 0;     ///< Cauchy stress of the surviving bonds (Pa), current frame
     double longest = 0, shortest = 0;  ///< (L^2 - L0^2) / L0^2 of the bonds, 0 among them [-]
 };
 

@@ -49,10 +49,10 @@ struct BreakLimits {
 /// What one particle feels, for energies, pictures and files.
 template <int Dim>
 struct LocalState {
-    double energy = 0;      ///< (J)
-    Mat<Dim> stress{};      ///< Cauchy stress of the surviving bonds (Pa), current frame
-    double dilatation = 0;  ///< D_i [-]
-    double bond_strain = 0; ///< of the surviving bond of largest strain in size, signed [-]
+    double energy = 0;       ///< (J)
+    Mat<Dim> stress{};       ///< Cauchy stress of the surviving bonds (Pa), current frame
+    double dilatation = 0;   ///< D_i [-]
+    double bond_strain = 0;  ///< of the surviving bond of largest strain in size, signed [-]
 };
 
 /// An elastic law: one discrete energy of the model's displacements (and angles, where it has them) and its
@@ -65,15 +65,15 @@ class ElasticLaw {
     /// The displacements of particles [begin, end) have changed since the last call.
     virtual void displaced(const Model<Dim>& model, int begin, int end) = 0;
     /// Overwrites particles.force, and spin.torque where there is one, with -dU/du (N) and -dU/dtheta (N m).
-    /// `then`, if given, is called for every block of particles (of parallel_block each) once its forces stand;
-    /// it must leave displacements alone. Returns in which blocks, rising, bonds may be beyond their limits: of
-    /// such a bond, the block of its first particle.
+    /// `then`, if given, is called for every block of particles (of parallel_block each) once its forces
+    /// stand; it must leave displacements alone. Returns in which blocks, rising, bonds may be beyond their
+    /// limits: of such a bond, the block of its first particle.
     virtual std::vector<int> sum_forces(Model<Dim>& model,
                                         const std::function<void(int begin, int end)>& then = {}) = 0;
     /// Both.
     std::vector<int> forces(Model<Dim>& model);
-    /// The forces of some blocks of particles alone (rising): after breaks, for those in which the ends of the
-    /// broken bonds lie and their neighbours. All others must stand.
+    /// The forces of some blocks of particles alone (rising): after breaks, for those in which the ends of
+    /// the broken bonds lie and their neighbours. All others must stand.
     virtual void renew(Model<Dim>& model, const std::vector<int>& blocks,
                        const std::function<void(int begin, int end)>& then) = 0;
 

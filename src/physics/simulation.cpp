@@ -138,7 +138,8 @@ void Simulation<Dim>::list_stages() {
           [this] { kick_and_drift(); });
     if (!driven_.empty()) stage("prescribed motion", [this] { prescribe_motion(); });
     if (!applied_.empty()) stage("applied loads", [this] { update_loads(time_step_); });
-    std::string forces = model_.spin ? "bond forces and torques (thesis variant)" : "bond forces (moment-matched)";
+    std::string forces =
+        model_.spin ? "bond forces and torques (thesis variant)" : "bond forces (moment-matched)";
     if (can_break()) forces += ", watch limits";
     if (physics_.gravity) forces += ", gravity";
     stage((forces + ", half kick").c_str(), [this] { sum_forces_and_kick(); });

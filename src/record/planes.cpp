@@ -25,8 +25,8 @@ void unshuffle(const std::uint8_t* planes, std::size_t room, std::size_t count, 
         for (std::size_t k = 0; k < Size; ++k) numbers[i * stride + k] = planes[k * room + i];
 }
 
-/// Would a code that knows how often each byte occurs save too little for its time? By the chance that two bytes
-/// are equal, 1/256 for noise; at this limit it saves a sixth.
+/// Would a code that knows how often each byte occurs save too little for its time? By the chance that two
+/// bytes are equal, 1/256 for noise; at this limit it saves a sixth.
 bool is_noise(std::span<const std::uint8_t> plane) {
     constexpr double limit = 3.0 / 256;
     const std::size_t each = 1 + plane.size() / 8192;  // of many a sample is enough

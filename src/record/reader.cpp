@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 
 #include "record/run_folder.hpp"
@@ -68,6 +69,8 @@ RunReader::RunReader(std::filesystem::path folder) : folder_(std::move(folder)) 
 }
 
 Snapshot RunReader::read(int state, const std::vector<std::string>& arrays) const {
+    static std::mutex one_at_a_time;  // not every HDF5 can do more
+    const std::lock_guard lock(one_at_a_time);
     return read_state(states_.at(state).file, topology_, arrays);
 }
 

@@ -107,7 +107,7 @@ class RunReader {
     }  ///< per bond (s), infinity where intact
     const RunSummary& summary() const { return summary_; }
     /// Of the arrays with an entry per particle only those named, the others being empty; all where none is
-    /// named.
+    /// named. May be called from any thread.
     Snapshot read(int state, const std::vector<std::string>& arrays = {}) const;
 
     /// Extent of one state without reading all of it: smallest and largest position and, by field name of

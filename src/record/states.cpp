@@ -87,8 +87,7 @@ void write_extent(HdfFile& file, const Topology& topology, const Snapshot& snaps
     file.attribute("/Hibi", "high", std::vector<Vec3>{high});
     file.group("/Hibi/range");
     for (const std::string& name : scalar_field_names())
-        file.attribute("/Hibi/range", name,
-                       std::vector{range_of(scalar_field(topology, snapshot, name))});
+        file.attribute("/Hibi/range", name, std::vector{range_of(scalar_field(topology, snapshot, name))});
 }
 
 }  // namespace

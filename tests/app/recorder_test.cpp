@@ -45,14 +45,15 @@ TEST(EvenStates, GoOnWhereTheIntervalIsLostInTheDigitsOfTheTime) {
 /// A bar torn apart by its own motion, recorded until `max_time`.
 struct Recorded {
     double stable_time_step = 0, time_step = 0;
+    double first_break = 0;
     std::int64_t written = 0;    ///< states, those dropped later included
     std::vector<double> before;  ///< times of the states up to first break (s)
     std::vector<double> after;   ///< and from there on
 };
-Recorded record(int columns, const Scene& scene, double break_strain) {
+Recorded record(int columns, int rows, const Scene& scene, double break_strain) {
     Material material = test::concrete();
     material.break_strain = break_strain;
-    Model<2> model = test::plate(columns, 3, 1, material);
+    Model<2> model = test::plate(columns, rows, 1, material);
     for (int i = 0; i < model.particles.count(); ++i)
         model.particles.velocity[i].x() = 0.5 * (model.particles.reference_position[i].x() - columns / 2.0);
     Simulation<2> simulation(std::move(model), {});
@@ -82,6 +83,7 @@ Recorded record(int columns, const Scene& scene, double break_strain) {
     for (const StageTime& stage : times.list())
         if (stage.name == "write states") recorded.written = stage.calls;
     const double first_break = watch.events().first_break ? watch.events().first_break->time : 1e9;
+    recorded.first_break = first_break;
     for (const StateInfo& state : RunReader(folder.path()).states())
         (state.time <= first_break ? recorded.before : recorded.after).push_back(state.time);
     return recorded;
@@ -102,8 +104,8 @@ Scene film_of(double max_time) {
 }
 
 TEST(Recorder, WritesNoStateInVainWhereTheEndIsKnown) {
-    const double step = record(20, film_of(0), 10).time_step;
-    const Recorded known = record(20, film_of(3000 * step), 10);
+    const double step = record(20, 3, film_of(0), 10).time_step;
+    const Recorded known = record(20, 3, film_of(3000 * step), 10);
     EXPECT_EQ(known.written, static_cast<std::int64_t>(known.before.size()));
     EXPECT_GE(known.written, 99);  // for 100 frames
     EXPECT_LE(known.written, 102);
@@ -111,17 +113,30 @@ TEST(Recorder, WritesNoStateInVainWhereTheEndIsKnown) {
 
 TEST(Recorder, LooksMoreSeldomAtALargeBodyWhereWavesNeedLonger) {
     Scene scene = film_of(0);
-    const double step = record(1000, scene, 0.01).time_step;
-    scene.run.max_time = 600 * step;
-    const Recorded large = record(1000, scene, 0.01);
-    // Every 40 steps at the densest, for the body and for its failure in one, and what the ring held.
+    const double step = record(200, 200, scene, 0.01).time_step;
+    scene.run.max_time = 400 * step;
+    const Recorded large = record(200, 200, scene, 0.01);
     ASSERT_NEAR(large.stable_time_step, 2 * step, 0.01 * step);
-    EXPECT_LE(large.written, 600 / 40 + 12);
+    // Every 8 steps at the densest, for the body and for its failure in one, and what the ring held.
+    EXPECT_LE(large.written, 400 / 8 + 12);
     EXPECT_GE(large.after.size(), 10u);
-    const Recorded small = record(100, scene, 0.01);
-    EXPECT_LT(shortest_interval(small.after), 4.5 * step);
-    scene.movie.slow = {{.around = {EventName::first_break, 0}, .span = 300 * step, .rate = 0.1}};
-    EXPECT_LT(shortest_interval(record(1000, scene, 0.01).after), 3.5 * step);
+    const Recorded slender = record(200, 3, scene, 0.01);
+    EXPECT_LT(shortest_interval(slender.after), 2.5 * step);
+    scene.movie.slow = {{.around = {EventName::first_break, 0}, .span = 200 * step, .rate = 0.1}};
+    EXPECT_LT(shortest_interval(record(200, 200, scene, 0.01).after), 2.5 * step);
+}
+
+TEST(Recorder, KeepsTheStatesOfFirstBreakAndJustBefore) {
+    for (const int columns : {20, 33, 70}) {
+        Scene scene = film_of(0);
+        scene.run.max_time = 4000 * record(columns, 3, scene, 0.01).time_step;  // even ones every 40 steps
+        const Recorded recorded = record(columns, 3, scene, 0.01);
+        ASSERT_LT(recorded.first_break, scene.run.max_time);
+        ASSERT_GE(recorded.before.size(), 5u);
+        EXPECT_EQ(recorded.before.back(), recorded.first_break);
+        const double fifth = recorded.before[recorded.before.size() - 5];
+        EXPECT_GT(fifth, recorded.first_break - 40 * recorded.time_step) << columns;
+    }
 }
 
 }  // namespace

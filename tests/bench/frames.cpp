@@ -20,9 +20,10 @@ int main(int count, char** words) {
         RunDrawing drawing(scene, run, film_style(scene, run), {});
         Image image(scene.view.width, scene.view.height);
         std::vector<double> times;
-        for (int frame = 0; frame < static_cast<int>(drawing.plan().time.size()); ++frame) {
+        const int frames = static_cast<int>(drawing.plan().time.size());
+        for (int frame = 0; frame < frames; ++frame) {
             const auto begin = std::chrono::steady_clock::now();
-            drawing.draw(frame, image);
+            drawing.draw(frame, image, std::min(frame + 1, frames - 1));
             times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         }
         std::ranges::sort(times);

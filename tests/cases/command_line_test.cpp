@@ -83,7 +83,8 @@ TEST(Profile, OfARunStandsInItsSummaryWhereAskedFor) {
     const Answer answer = call(run + " --profile");
     ASSERT_EQ(answer.status, 0);
     EXPECT_NE(answer.out.find("ms per call"), std::string::npos) << answer.out;
-    for (const char* stage : {"setup", "bond forces (moment-matched), watch limits, half kick", "take states", "history", "write states"}) {
+    for (const char* stage : {"setup", "bond forces (moment-matched), watch limits, half kick", "take states",
+                              "history", "write states"}) {
         EXPECT_NE(answer.out.find(stage), std::string::npos) << answer.out;
         EXPECT_NE(summary().find("\"stage\": \"" + std::string(stage) + "\""), std::string::npos);
     }

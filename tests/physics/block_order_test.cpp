@@ -41,7 +41,8 @@ TEST(BlockOrder, DoesTheSecondToABlockOnceAndOnlyWhenTheFirstIsDoneToItsSurround
                     if (firsts < blocks) ++soon;
                 });
             EXPECT_EQ(too_early, 0) << columns;
-            for (int b = 0; b < blocks; ++b) EXPECT_TRUE(first[b] == 1 && second[b] == 1) << columns << " " << b;
+            for (int b = 0; b < blocks; ++b)
+                EXPECT_TRUE(first[b] == 1 && second[b] == 1) << columns << " " << b;
             // but where a block leads to more than a segment
             if (blocks > 64 && columns < 1000) {
                 EXPECT_GT(soon, blocks / 2) << columns;

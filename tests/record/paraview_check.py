@@ -50,13 +50,14 @@ def main(folder):
             line = grid.GetCell(bond)
             assert line.GetClassName() == "vtkLine" and (line.GetPointId(0), line.GetPointId(1)) == ends, bond
 
-        # Position less displacement is the reference position, the same in every state.
+        # Position less displacement is the reference position, the same in every state; positions have single
+        # precision.
         shift = values(points.GetArray("displacement"))
         position = values(grid.GetPoints().GetData())
         start = [x - u for x, u in zip(position, shift)]
         reference = reference or start
         scale = max(map(abs, position)) + max(map(abs, shift))
-        assert max(abs(a - b) for a, b in zip(start, reference)) <= 1e-12 * scale, time
+        assert max(abs(a - b) for a, b in zip(start, reference)) <= 2e-7 * scale, time
     print(f"{folder}: ParaView reads {len(times)} states, {times[0]} s to {times[-1]} s, "
           f"{grid.GetNumberOfPoints()} points, {grid.GetNumberOfCells()} bonds, {len(breaks)} broken")
 

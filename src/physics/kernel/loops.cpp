@@ -306,7 +306,7 @@ HIBI_INLINE Chunkful energy_of(const Arrays& a, int c, State* states) {
         (cc * sxx - 2.0 * cs * sxy + ss * syy).store(xx);
         (ss * sxx + 2.0 * cs * sxy + cc * syy).store(yy);
         (cs * (sxx - syy) + (cc - ss) * sxy).store(xy);
-        for (int l = 0; l < lanes; ++l) 
+        for (int l = 0; l < lanes; ++l)
             states[l] = {energies[l], dilatation[l], xx[l], yy[l], xy[l], longest[l], shortest[l]};
     }
     return energy;
