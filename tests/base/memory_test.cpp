@@ -1,0 +1,30 @@
+#include "base/memory.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <vector>
+
+namespace hibi {
+namespace {
+
+long page_faults() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    return used.ru_minflt;
+}
+
+TEST(Memory, WhatIsFreedIsTakenAgainWithoutAskingTheSystem) {
+    rlimit limit{};
+    getrlimit(RLIMIT_AS, &limit);
+    if (limit.rlim_cur != RLIM_INFINITY) GTEST_SKIP() << "the size of programs is limited here";
+    keep_freed_memory();
+    constexpr std::size_t size = 200 << 20;  // 51 200 pages
+    { const std::vector<char> first(size, 1); }
+    const long before = page_faults();
+    const std::vector<char> second(size, 1);
+    EXPECT_LT(page_faults() - before, 500);
+}
+
+}  // namespace
+}  // namespace hibi
