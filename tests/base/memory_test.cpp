@@ -15,6 +15,9 @@ long page_faults() {
 }
 
 TEST(Memory, WhatIsFreedIsTakenAgainWithoutAskingTheSystem) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer has its own memory";
+#endif
     rlimit limit{};
     getrlimit(RLIMIT_AS, &limit);
     if (limit.rlim_cur != RLIM_INFINITY) GTEST_SKIP() << "the size of programs is limited here";
