@@ -84,8 +84,7 @@ void add_ramp_notes(const Built<2>& built, double period, double ratio, std::vec
     }
     if (built.physics.gravity)
         notes.push_back(
-            "gravity acts from the start: the body swings to as much as twice what its weight strains it at "
-            "rest; "
+            "gravity acts from the start: the body swings to as much as twice what its weight strains it at rest; "
             "loads of the same moment meet it swinging");
 }
 
@@ -95,11 +94,10 @@ constexpr double brittle_strain = 0.01;
 void add_compression_notes(const Scene& scene, std::vector<std::string>& notes) {
     for (const Material& m : scene.materials)
         if (m.break_strain && *m.break_strain < brittle_strain && !m.tension_only)
-            notes.push_back(
-                fmt::format("[material.{}] break_strain: bonds that are shortened by {:.2g} % break too; for "
-                            "concrete, stone or "
-                            "glass, which bear far more in compression: tension_only = true",
-                            m.name, 100 * *m.break_strain));
+            notes.push_back(fmt::format(
+                "[material.{}] break_strain: bonds that are shortened by {:.2g} % break too; for concrete, stone or "
+                "glass, which bear far more in compression: tension_only = true",
+                m.name, 100 * *m.break_strain));
 }
 
 /// Corners between what is held and what is free, and tips of notches, where strain grows without end as the

@@ -35,8 +35,8 @@ class PictureSource {
 
  private:
     struct Loaded {
-        std::vector<double> x, y;  ///< displacement (m)
-        std::vector<float> value;
+        std::vector<double> x{}, y{};  ///< displacement (m)
+        std::vector<float> value{};
     };
     /// Where a time lies: two states, or one twice, and the part of the way to the second.
     struct Between {
