@@ -46,9 +46,9 @@ TEST(EvenStates, GoOnWhereTheIntervalIsLostInTheDigitsOfTheTime) {
 struct Recorded {
     double stable_time_step = 0, time_step = 0;
     double first_break = 0;
-    std::int64_t written = 0;    ///< states, those dropped later included
-    std::vector<double> before;  ///< times of the states up to first break (s)
-    std::vector<double> after;   ///< and from there on
+    std::int64_t written = 0;      ///< states, those dropped later included
+    std::vector<double> before{};  ///< times of the states up to first break (s)
+    std::vector<double> after{};   ///< and from there on
 };
 Recorded record(int columns, int rows, const Scene& scene, double break_strain) {
     Material material = test::concrete();
@@ -84,7 +84,8 @@ Recorded record(int columns, int rows, const Scene& scene, double break_strain) 
         if (stage.name == "write states") recorded.written = stage.calls;
     const double first_break = watch.events().first_break ? watch.events().first_break->time : 1e9;
     recorded.first_break = first_break;
-    for (const StateInfo& state : RunReader(folder.path()).states())
+    const RunReader run(folder.path());
+    for (const StateInfo& state : run.states())
         (state.time <= first_break ? recorded.before : recorded.after).push_back(state.time);
     return recorded;
 }
