@@ -30,8 +30,8 @@ bool promises_only_what_it_has() {
 
 }  // namespace
 
-void keep_freed_memory() {
-    if (is_limited(RLIMIT_AS) || is_limited(RLIMIT_DATA) || promises_only_what_it_has()) return;
+bool keep_freed_memory() {
+    if (is_limited(RLIMIT_AS) || is_limited(RLIMIT_DATA) || promises_only_what_it_has()) return false;
     mallopt(M_ARENA_MAX, 1);        // one heap for all threads,
     mallopt(M_MMAP_MAX, 0);         // large blocks come from it as well,
     mallopt(M_TRIM_THRESHOLD, -1);  // and it never shrinks.
@@ -41,15 +41,16 @@ void keep_freed_memory() {
     const std::uint64_t half = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * page / 2;
     const auto size = static_cast<std::size_t>(std::min({half, most, std::uint64_t{SIZE_MAX} / 8}));
     void* const heap = std::malloc(size);
-    if (!heap) return;
+    if (!heap) return true;  // kept, if in small pages
     const auto begin = (reinterpret_cast<std::uintptr_t>(heap) + page - 1) / page * page;
     madvise(reinterpret_cast<void*>(begin), size - 2 * page, MADV_HUGEPAGE);
     std::free(heap);
+    return true;
 }
 
 #else
 
-void keep_freed_memory() {}
+bool keep_freed_memory() { return false; }
 
 #endif
 
