@@ -11,8 +11,8 @@
 #include "app/quasi_static.hpp"
 #include "app/run.hpp"
 #include "base/units.hpp"
-#include "physics/damage.hpp"
-#include "physics/simulation.hpp"
+#include "breaking/limits.hpp"
+#include "simulation/simulation.hpp"
 
 namespace hibi {
 

@@ -7,7 +7,7 @@
 
 #include "app/compare.hpp"
 #include "image/png.hpp"
-#include "physics/damage.hpp"
+#include "breaking/limits.hpp"
 #include "record/files.hpp"
 #include "record/provenance.hpp"
 

@@ -15,7 +15,7 @@
 #include "base/units.hpp"
 #include "film/encoder.hpp"
 #include "image/text.hpp"
-#include "physics/bond_kernel.hpp"
+#include "elasticity/bond_kernel.hpp"
 #include "render/renderer.hpp"
 
 namespace hibi {

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "physics/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "scene/scene.hpp"
 
 namespace hibi {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "base/units.hpp"
-#include "physics/time_step.hpp"
+#include "elasticity/frequency.hpp"
 #include "scene/build_supports.hpp"
 
 namespace hibi {

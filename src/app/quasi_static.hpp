@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "physics/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "scene/scene.hpp"
 
 namespace hibi {

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "model/intact_bonds.hpp"
+
 namespace hibi {
 
 namespace {
@@ -183,26 +185,14 @@ CrackReading Cracks<Dim>::read(double time) const {
 }
 
 template <int Dim>
-Fragments find_fragments(const Model<Dim>& model) {
+Fragments find_fragments(const Model<Dim>& model, const State<Dim>& state) {
     const int n = model.particles.count();
-    const Bonds& bonds = model.bonds;
-    std::vector<int> root(n);
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int i) {
-        while (root[i] != i) i = root[i] = root[root[i]];
-        return i;
-    };
-    for (int b = 0; b < bonds.count(); ++b) {
-        if (!bonds.is_intact(b)) continue;
-        const int i = find(bonds.first[b]), j = find(bonds.second[b]);
-        root[std::max(i, j)] = std::min(i, j);
-    }
+    const std::vector<int> part = connected_parts(model.bonds, [&](int b) { return state.is_intact(b); });
     std::vector<double> mass(n, 0);
     std::vector<int> size(n, 0);
     for (int i = 0; i < n; ++i) {
-        const int r = find(i);
-        mass[r] += model.particles.mass[i];
-        ++size[r];
+        mass[part[i]] += model.particles.mass[i];
+        ++size[part[i]];
     }
     Fragments fragments;
     for (int i = 0; i < n; ++i) {
@@ -215,6 +205,7 @@ Fragments find_fragments(const Model<Dim>& model) {
 }
 
 template class Cracks<2>;
-template Fragments find_fragments<2>(const Model<2>&);
+template Fragments find_fragments<2>(const Model<2>&, const State<2>&);
+template Fragments find_fragments<3>(const Model<3>&, const State<3>&);
 
 }  // namespace hibi

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "measure/history.hpp"
-#include "model/model.hpp"
+#include "model/state.hpp"
 
 namespace hibi {
 
@@ -55,9 +55,24 @@ class Cracks {
     CrackReading read(double time) const;
     double top_speed() const { return top_speed_; }  ///< largest speed at any advance so far (m/s)
 
+    template <class Self, class Visit>
+    static void each_field(Self& self, Visit&& visit) {
+        visit("length", self.length_);
+        visit("top_speed", self.top_speed_);
+        visit("leading", self.leading_);
+        visit("cracks", self.cracks_);
+        visit("crack_of", self.crack_of_);
+    }
+
  private:
     struct Advance {
         double time = 0, reach = 0;
+
+        template <class Self, class Visit>
+        static void each_field(Self& self, Visit&& visit) {
+            visit("time", self.time);
+            visit("reach", self.reach);
+        }
     };
     struct Crack {
         Vec<Dim> origin = Vec<Dim>::Zero(), tip = origin;
@@ -65,6 +80,16 @@ class Cracks {
         double spacing = 0;
         std::deque<Advance> advances{};  ///< of the last ten spacings
         int merged_into = -1;
+
+        template <class Self, class Visit>
+        static void each_field(Self& self, Visit&& visit) {
+            visit("origin", self.origin);
+            visit("tip", self.tip);
+            visit("reach", self.reach);
+            visit("spacing", self.spacing);
+            visit("advances", self.advances);
+            visit("merged_into", self.merged_into);
+        }
     };
 
     int oldest(int crack) const;
@@ -82,9 +107,9 @@ class Cracks {
 
 /// Connected parts of the model: particles joined by intact bonds. A particle without any is debris.
 template <int Dim>
-Fragments find_fragments(const Model<Dim>& model);
+Fragments find_fragments(const Model<Dim>& model, const State<Dim>& state);
 
 extern template class Cracks<2>;
-extern template Fragments find_fragments<2>(const Model<2>&);
+extern template Fragments find_fragments<2>(const Model<2>&, const State<2>&);
 
 }  // namespace hibi

@@ -19,6 +19,13 @@ struct Fragments {
     int count = 0;       ///< connected parts of two particles or more
     double largest = 0;  ///< mass of the heaviest of them (kg)
     double debris = 0;   ///< mass of all particles without an intact bond (kg)
+
+    template <class Self, class Visit>
+    static void each_field(Self& self, Visit&& visit) {
+        visit("count", self.count);
+        visit("largest", self.largest);
+        visit("debris", self.debris);
+    }
 };
 
 /// One row of history.csv; all values at the same time. SI units.

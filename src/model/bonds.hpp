@@ -7,17 +7,16 @@
 namespace hibi {
 
 /// One entry per bond. A bond is stored once, so it breaks once, and can be drawn and counted.
-/// Sorted by (first, second), first < second.
+/// Sorted by (first, second), first < second. When a bond broke stands in State::broken_at.
 struct Bonds {
+    /// The time at which a bond broke that has not broken.
     static constexpr double intact = std::numeric_limits<double>::infinity();
 
     std::vector<int> first, second;    ///< particle indices
     std::vector<double> rest_length;   ///< |X_second - X_first| (m)
-    std::vector<double> broken_at;     ///< time of failure (s), or `intact`
     std::vector<int> start, bonds_of;  ///< bonds of particle i: bonds_of[start[i] .. start[i+1])
 
     int count() const { return static_cast<int>(first.size()); }
-    bool is_intact(int bond) const { return broken_at[bond] == intact; }
     int other(int bond, int particle) const { return first[bond] == particle ? second[bond] : first[bond]; }
 };
 

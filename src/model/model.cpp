@@ -174,7 +174,6 @@ std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notch
                                                     : kinds.find(X[j] - X[i], particles.spacing[i]));
         bonds.rest_length.push_back(model.bond_vectors[bonds.count() - 1].norm());
     }
-    bonds.broken_at.assign(pairs.size(), Bonds::intact);
     index_bonds(bonds, particles.count());
     return cut;
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,18 +30,12 @@ struct Body {
     int begin = 0, end = 0;  ///< its particles, once filled
 };
 
-/// Rotation of the particles as unknowns of their own: the thesis variant only, in the plane.
-struct Spin {
-    std::vector<double> angle, velocity, torque;  ///< (rad), (rad/s), (N m)
-    std::vector<double> inertia;                  ///< m l0^2 / 6 (kg m^2)
-};
-
+/// What never changes in a run: particles, bonds and materials. What changes is in State.
 template <int Dim>
 struct Model {
     Particles<Dim> particles;
     Bonds bonds;
     BondVectors<Dim> bond_vectors{};
-    std::optional<Spin> spin{};
     std::vector<Material> materials;
     std::vector<Body<Dim>> bodies;
     Assumption assumption = Assumption::plane_stress;

@@ -5,14 +5,12 @@
 
 namespace hibi {
 
-/// One entry per particle in every array. SI units throughout. Dim is 2 or 3.
-/// The displacement, not the position, is the unknown: strains of 1e-9 then keep their digits.
+/// What never changes of the particles, one entry per particle in every array. SI units throughout. Dim is 2
+/// or 3. What a step changes is in State.
 template <int Dim>
 struct Particles {
     std::vector<Vec<Dim>> reference_position;  ///< X, in the unloaded body (m)
-    std::vector<Vec<Dim>> displacement;        ///< u = x - X (m)
-    std::vector<Vec<Dim>> velocity;            ///< v (m/s)
-    std::vector<Vec<Dim>> force;               ///< sum of all terms at the current time (N)
+    std::vector<Vec<Dim>> initial_velocity;    ///< v at the start (m/s)
     std::vector<double> mass;                  ///< (kg)
     std::vector<double> volume;                ///< spacing^Dim, times the thickness in 2-D (m^3)
     std::vector<double> spacing;               ///< l0 of its body (m)
@@ -23,9 +21,7 @@ struct Particles {
     template <class Self, class Visit>
     static void each_field(Self& self, Visit&& visit) {
         visit("reference_position", self.reference_position);
-        visit("displacement", self.displacement);
-        visit("velocity", self.velocity);
-        visit("force", self.force);
+        visit("initial_velocity", self.initial_velocity);
         visit("mass", self.mass);
         visit("volume", self.volume);
         visit("spacing", self.spacing);
@@ -34,7 +30,6 @@ struct Particles {
     }
 
     int count() const { return static_cast<int>(reference_position.size()); }
-    Vec<Dim> position(int i) const { return reference_position[i] + displacement[i]; }
 };
 
 }  // namespace hibi

@@ -7,12 +7,9 @@
 
 #include "base/field.hpp"
 #include "base/vec.hpp"
+#include "elasticity/elastic_law.hpp"
 
 namespace hibi {
-
-/// "moment-matched": weights corrected per particle, rotation from the polar decomposition. "thesis": Ando's
-/// own variant, plain weights and an independent angle per particle.
-enum class Elasticity { moment_matched, thesis };
 
 /// Components held at their place from the first moment on.
 struct Hold {
@@ -49,6 +46,8 @@ struct Load {
 
     /// Unit vector along which load and displacement are reported.
     Vec3 direction = Vec3::UnitX();
+
+    bool prescribes_motion() const { return kind == Kind::displacement || kind == Kind::velocity; }
 };
 
 struct Gravity {

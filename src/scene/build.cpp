@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/time_step.hpp"
-#include "physics/weights.hpp"
+#include "elasticity/frequency.hpp"
+#include "elasticity/weights.hpp"
 #include "scene/build_loads.hpp"
 #include "scene/build_supports.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "physics/time_step.hpp"
+#include "elasticity/frequency.hpp"
 #include "scene/everything.hpp"
 #include "scene/read.hpp"
 #include "support/plates.hpp"

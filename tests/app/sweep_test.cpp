@@ -6,7 +6,7 @@
 
 #include "app/converge.hpp"
 #include "app/process.hpp"
-#include "physics/damage.hpp"
+#include "breaking/limits.hpp"
 #include "scene/everything.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/memory.hpp"
-#include "physics/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "support/plates.hpp"
 
 namespace {

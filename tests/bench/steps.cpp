@@ -10,8 +10,8 @@
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
-#include "physics/bond_kernel.hpp"
-#include "physics/simulation.hpp"
+#include "elasticity/bond_kernel.hpp"
+#include "simulation/simulation.hpp"
 #include "support/plates.hpp"
 
 namespace hibi {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "physics/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "record/run_folder.hpp"
 #include "record/tables.hpp"
 #include "support/call.hpp"

@@ -4,7 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <numeric>
 
-#include "physics/tangent.hpp"
+#include "elasticity/tangent.hpp"
 #include "scene/everything.hpp"
 #include "scene/read.hpp"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "physics/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "scene/build.hpp"
 #include "scene/everything.hpp"
 #include "scene/read.hpp"

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "physics/tangent.hpp"
-#include "physics/weights.hpp"
+#include "elasticity/tangent.hpp"
+#include "elasticity/weights.hpp"
 #include "support/plates.hpp"
 
 namespace hibi::test {

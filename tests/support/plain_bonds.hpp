@@ -1,7 +1,7 @@
 #pragma once
-#include "physics/dilatation.hpp"
-#include "physics/elastic.hpp"
-#include "physics/weights.hpp"
+#include "elasticity/dilatation.hpp"
+#include "elasticity/elastic_law.hpp"
+#include "elasticity/weights.hpp"
 
 namespace hibi::test {
 

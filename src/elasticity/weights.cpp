@@ -1,0 +1,174 @@
+#include "elasticity/weights.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "base/parallel.hpp"
+
+namespace hibi {
+
+double weight(double r, double re) { return r < re ? re / r - 1 : 0; }
+
+template <int Dim>
+double reference_number_density(double ratio) {
+    static_assert(Dim == 2, "the sum below is plane");
+    const int reach = static_cast<int>(std::ceil(ratio));
+    double sum = 0;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x)
+            if (x != 0 || y != 0) sum += weight(std::hypot(x, y), ratio);
+    return sum;
+}
+
+namespace {
+
+/// Components of a symmetric matrix as a vector whose dot product is the matrix product's trace.
+template <int Dim>
+constexpr int symmetric_size = Dim*(Dim + 1) / 2;
+template <int Dim>
+using Symmetric = Eigen::Matrix<double, symmetric_size<Dim>, 1>;
+
+template <int Dim>
+Symmetric<Dim> dyad(const Vec<Dim>& n) {
+    Symmetric<Dim> v;
+    int k = 0;
+    for (int a = 0; a < Dim; ++a)
+        for (int b = a; b < Dim; ++b) v[k++] = (a == b ? 1.0 : std::sqrt(2.0)) * n[a] * n[b];
+    return v;
+}
+
+constexpr double smallest_factor = 0.1, largest_factor = 5, rank_tolerance = 1e-9;
+
+/// The factors g of one particle: n . B n, clamped. `share` is d w / n per bond.
+template <int Dim>
+std::vector<double> moment_factors(const std::vector<Vec<Dim>>& normals, const std::vector<double>& share) {
+    const std::size_t count = normals.size();
+    std::vector<Symmetric<Dim>> dyads(count);
+    for (std::size_t k = 0; k < count; ++k) dyads[k] = dyad<Dim>(normals[k]);
+    Symmetric<Dim> identity = Symmetric<Dim>::Zero();
+    for (int a = 0; a < Dim; ++a) identity += dyad<Dim>(Vec<Dim>::Unit(a));
+
+    std::vector<double> factor(count, 1.0);
+    std::vector<bool> frozen(count, false);
+    for (int pass = 0; pass < 5; ++pass) {
+        Eigen::Matrix<double, symmetric_size<Dim>, symmetric_size<Dim>> M;
+        M.setZero();
+        Symmetric<Dim> rest = identity;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (frozen[k])
+                rest -= share[k] * factor[k] * dyads[k];
+            else
+                M += share[k] * dyads[k] * dyads[k].transpose();
+        }
+        // Pseudo-inverse: a row of particles, or a single bond, is matched in the subspace its bonds span.
+        const Eigen::SelfAdjointEigenSolver<decltype(M)> eigen(M);
+        const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
+        Symmetric<Dim> B = Symmetric<Dim>::Zero();
+        for (int k = 0; k < symmetric_size<Dim>; ++k) {
+            const double value = eigen.eigenvalues()[k];
+            if (value > rank_tolerance * largest)
+                B += eigen.eigenvectors().col(k) * (eigen.eigenvectors().col(k).dot(rest) / value);
+        }
+        bool clamped = false;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (frozen[k]) continue;
+            factor[k] = dyads[k].dot(B);
+            if (factor[k] < smallest_factor || factor[k] > largest_factor) {
+                factor[k] = std::clamp(factor[k], smallest_factor, largest_factor);
+                frozen[k] = clamped = true;
+            }
+        }
+        if (!clamped) break;
+    }
+    return factor;
+}
+
+}  // namespace
+
+template <int Dim>
+BondWeights moment_matched_weights(const Model<Dim>& model) {
+    const Particles<Dim>& particles = model.particles;
+    const Bonds& bonds = model.bonds;
+    BondWeights s{std::vector<double>(bonds.count()), std::vector<double>(bonds.count())};
+    // Particles deep inside a lattice are all alike: the weights of the last one mostly do for the next.
+    struct Neighbourhood {
+        std::vector<int> kinds;  ///< of the bonds, negative where they are seen from their second end
+        double spacing = 0;
+        bool operator==(const Neighbourhood&) const = default;
+    };
+    parallel_for(particles.count(), [&](int begin, int end) {
+        Neighbourhood last, here;
+        std::vector<Vec<Dim>> normals;
+        std::vector<double> share, weights;  // d w / n; s_ij / V
+        for (int i = begin; i < end; ++i) {
+            here.kinds.clear();
+            here.spacing = particles.spacing[i];
+            for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
+                const int b = bonds.bonds_of[k], kind = model.bond_vectors.kind[b];
+                here.kinds.push_back(bonds.first[b] == i ? kind : ~kind);
+            }
+            if (i == begin || !(here == last)) {
+                normals.clear();
+                share.clear();
+                double density = 0;
+                for (const int kind : here.kinds) {
+                    const Vec<Dim> r0 = model.bond_vectors.table[kind < 0 ? ~kind : kind];
+                    const double length = r0.norm();
+                    normals.push_back((kind < 0 ? -1 : 1) / length * r0);
+                    share.push_back(weight(length, model.influence * here.spacing));
+                    density += share.back();
+                }
+                for (double& w : share) w *= Dim / density;
+                weights = moment_factors<Dim>(normals, share);
+                for (std::size_t k = 0; k < share.size(); ++k) weights[k] *= share[k];
+                std::swap(last, here);
+            }
+            for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
+                const int b = bonds.bonds_of[k];
+                auto& mine = bonds.first[b] == i ? s.forward : s.backward;
+                mine[b] = particles.volume[i] * weights[k - bonds.start[i]];
+            }
+        }
+    });
+    return s;
+}
+
+template <int Dim>
+BondWeights thesis_weights(const Model<Dim>& model) {
+    const Particles<Dim>& particles = model.particles;
+    const Bonds& bonds = model.bonds;
+    const double n0 = reference_number_density<Dim>(model.influence);
+    BondWeights s{std::vector<double>(bonds.count()), std::vector<double>(bonds.count())};
+    parallel_for(bonds.count(), [&](int begin, int end) {
+        for (int b = begin; b < end; ++b) {
+            const int i = bonds.first[b], j = bonds.second[b];
+            const double w = weight(bonds.rest_length[b], model.influence * particles.spacing[i]);
+            s.forward[b] = particles.volume[i] * Dim * w / n0;
+            s.backward[b] = particles.volume[j] * Dim * w / n0;
+        }
+    });
+    return s;
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> nodal_areas(const Model<Dim>& model) {
+    const Particles<Dim>& particles = model.particles;
+    const Bonds& bonds = model.bonds;
+    const BondWeights s = moment_matched_weights(model);
+    std::vector<Vec<Dim>> areas(particles.count(), Vec<Dim>::Zero());
+    for (int b = 0; b < bonds.count(); ++b) {
+        const int i = bonds.first[b], j = bonds.second[b];
+        const Vec<Dim>& r0 = model.bond_vectors[b];
+        const Vec<Dim> flux = (s.forward[b] + s.backward[b]) / r0.squaredNorm() * r0;
+        areas[i] -= flux;
+        areas[j] += flux;
+    }
+    return areas;
+}
+
+template double reference_number_density<2>(double);
+template BondWeights moment_matched_weights<2>(const Model<2>&);
+template BondWeights thesis_weights<2>(const Model<2>&);
+template std::vector<Vec<2>> nodal_areas<2>(const Model<2>&);
+
+}  // namespace hibi
