@@ -171,7 +171,7 @@ std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, con
     return notes;
 }
 
-void print_report(const Scene& scene, const Built<2>& built, const Simulation<2>& simulation,
+void print_report(const Scene& scene, const Built<2>& built, const Simulation& simulation,
                   const Facts& facts) {
     const Model<2>& model = built.model;
     const Estimate& estimate = facts.estimate;
@@ -238,7 +238,7 @@ void print_report(const Scene& scene, const Built<2>& built, const Simulation<2>
     fmt::print("\nThe scene with every default filled in, in SI units:\n\n{}", write_scene(scene));
 }
 
-void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& simulation,
+void print_json(const Scene& scene, const Built<2>& built, const Simulation& simulation,
                 const Facts& facts) {
     using nlohmann::ordered_json;
     const Model<2>& model = built.model;
@@ -289,8 +289,8 @@ void print_json(const Scene& scene, const Built<2>& built, const Simulation<2>& 
 
 int check_command(const CheckOptions& options) {
     const auto [scene, built] = read_and_build(options.scene, options.overrides);
-    Simulation<2> simulation(built.model, built.physics);
-    require_separable(scene, Watch<2>(simulation));
+    SimulationIn<2> simulation(built.model, built.physics);
+    require_separable(scene, *make_run_monitor(simulation));
     require_steps_that_end(scene, simulation);
     Facts facts;
     facts.period_left_out = period_takes_too_long(simulation, options.most_particles_for_period);

@@ -6,7 +6,7 @@
 
 namespace hibi {
 
-Estimate estimate_run(const Scene& scene, const Built<2>& built, Simulation<2>& simulation) {
+Estimate estimate_run(const Scene& scene, const Built<2>& built, Simulation& simulation) {
     Estimate estimate;
     estimate.steps = static_cast<std::int64_t>(std::ceil(scene.run.max_time / simulation.time_step()));
 

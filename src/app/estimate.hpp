@@ -15,6 +15,6 @@ struct Estimate {
 
 /// The speed of the solver is measured, by some steps of `simulation` that take about a tenth of a second;
 /// the other costs come from rules of thumb (see the source).
-Estimate estimate_run(const Scene& scene, const Built<2>& built, Simulation<2>& simulation);
+Estimate estimate_run(const Scene& scene, const Built<2>& built, Simulation& simulation);
 
 }  // namespace hibi

@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "elasticity/frequency.hpp"
+#include "loads/supports.hpp"
 #include "scene/build_supports.hpp"
 
 namespace hibi {
@@ -19,30 +20,30 @@ RampBias ramp_bias(double ratio, double periods) {
 
 namespace {
 
-bool is_damped_by_ratio(const Simulation<2>& simulation) {
+bool is_damped_by_ratio(const Simulation& simulation) {
     const auto& damping = simulation.physics().damping;
     return damping && damping->ratio;
 }
 
 }  // namespace
 
-bool period_takes_too_long(const Simulation<2>& simulation, int most_particles) {
+bool period_takes_too_long(const Simulation& simulation, int most_particles) {
     return !simulation.physics().statics && !is_damped_by_ratio(simulation) &&
-           simulation.model().particles.count() > most_particles;
+           simulation.particle_count() > most_particles;
 }
 
-std::optional<double> first_period(const Built<2>& built, const Simulation<2>& simulation) {
+std::optional<double> first_period(const Built<2>& built, const Simulation& simulation) {
     if (is_damped_by_ratio(simulation))  // found for it already
         return 4 * std::numbers::pi * *simulation.physics().damping->ratio / simulation.damping_rate();
     if (simulation.physics().statics || free_particle(built)) return {};
     try {
-        return 2 * std::numbers::pi / first_frequency(built.model, simulation.held());
+        return 2 * std::numbers::pi / first_frequency(built.model, held_or_driven(simulation.particle_count(), simulation.physics()));
     } catch (const std::runtime_error&) {
         return {};  // everything is held, or a part is a mechanism
     }
 }
 
-double damping_ratio(const Simulation<2>& simulation, double period) {
+double damping_ratio(const Simulation& simulation, double period) {
     return simulation.damping_rate() * period / (4 * std::numbers::pi);
 }
 

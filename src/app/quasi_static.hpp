@@ -23,16 +23,16 @@ inline constexpr double slow_ramp_periods = 10;
 
 /// Of the first mode, held and driven particles at rest (s). Nothing where a body can move freely, nothing is
 /// held, or the run is static.
-std::optional<double> first_period(const Built<2>& built, const Simulation<2>& simulation);
+std::optional<double> first_period(const Built<2>& built, const Simulation& simulation);
 
 /// Up to here a check looks for the first period itself: 7 s of one core (measured, a plate of 80 000).
 inline constexpr int most_particles_for_period = 80000;
 
 /// Whether a check leaves it out for the time it would take. Damped by a ratio, a run has found it already.
-bool period_takes_too_long(const Simulation<2>& simulation, int most_particles = most_particles_for_period);
+bool period_takes_too_long(const Simulation& simulation, int most_particles = most_particles_for_period);
 
 /// Damping ratio of a mode of that period; 0 when undamped.
-double damping_ratio(const Simulation<2>& simulation, double period);
+double damping_ratio(const Simulation& simulation, double period);
 
 /// What a load that has risen for `seconds` does to the load at first break, for people; "" where the ramp is
 /// slow.

@@ -22,22 +22,10 @@ constexpr double near_enough = 0.5;
 /// TimeMap.
 constexpr double failure_share = 0.6;
 
-/// What a wave takes across a body's smaller side, by the stable time step or more from one particle to the
-/// next (s); of several bodies the shortest. 0 in statics.
-double crossing_time(const Simulation<2>& simulation) {
-    const Model<2>& model = simulation.model();
-    const Particles<2>& particles = model.particles;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::vector<Vec<2>> low(model.bodies.size(), Vec<2>::Constant(infinity)), high(low.size(), -low.front());
-    for (int i = 0; i < particles.count(); ++i) {
-        Vec<2>&l = low[particles.body[i]], &h = high[particles.body[i]];
-        l = l.cwiseMin(particles.reference_position[i]);
-        h = h.cwiseMax(particles.reference_position[i]);
-    }
-    double steps = infinity;
-    for (std::size_t b = 0; b < low.size(); ++b)
-        steps = std::min(steps, (high[b] - low[b]).minCoeff() / model.bodies[b].spacing);
-    return steps * simulation.stable_time_step();
+/// What a wave takes across the narrowest body's smaller side, by the stable time step or more from one
+/// particle to the next (s). 0 in statics.
+double crossing_time(const Simulation& simulation) {
+    return simulation.narrowest_in_spacings() * simulation.stable_time_step();
 }
 
 /// About one state per frame; even, and not few for a short film either.
@@ -71,7 +59,7 @@ std::vector<std::int64_t> EvenStates::keep(double time, std::int64_t step) {
     return dropped;
 }
 
-Recorder::Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer,
+Recorder::Recorder(const Scene& scene, const Simulation& simulation, RunMonitor& watch, RunWriter& writer,
                    StageTimes* profile)
     : simulation_(simulation),
       watch_(watch),
@@ -169,13 +157,13 @@ void Recorder::write_now() {
 }
 
 void Recorder::write_ring() {
-    std::erase_if(ring_, [&](const Motion<2>& motion) { return wanted_already(motion.step); });
+    std::erase_if(ring_, [&](const Motion& motion) { return wanted_already(motion.step); });
     if (ring_.empty()) return;
     std::optional<TimedStage> taking(std::in_place, profile_, "take states");
-    UnbrokenBody<2> body(simulation_);
-    for (Motion<2>& motion : ring_) {
+    UnbrokenBody body(simulation_);
+    for (const Motion& motion : ring_) {
         if (!taking) taking.emplace(profile_, "take states");
-        Snapshot state = body.snapshot(std::move(motion));
+        Snapshot state = body.snapshot(motion);
         taking.reset();
         write_state(std::move(state));
     }

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "base/stage_time.hpp"
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
+#include "measure/snapshots.hpp"
 #include "record/run_folder.hpp"
 #include "scene/scene.hpp"
 
@@ -37,7 +38,7 @@ class EvenStates {
 class Recorder {
  public:
     /// References are kept. The first state and row are recorded at once.
-    Recorder(const Scene& scene, const Simulation<2>& simulation, Watch<2>& watch, RunWriter& writer,
+    Recorder(const Scene& scene, const Simulation& simulation, RunMonitor& watch, RunWriter& writer,
              StageTimes* profile = nullptr);
 
     /// After every step, when the watch has looked.
@@ -59,8 +60,8 @@ class Recorder {
     void keep(EvenStates& series);
     void write_state(Snapshot state);
 
-    const Simulation<2>& simulation_;
-    Watch<2>& watch_;
+    const Simulation& simulation_;
+    RunMonitor& watch_;
     RunWriter& writer_;
     StageTimes* profile_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept
@@ -83,7 +84,7 @@ class Recorder {
     };
     std::vector<Span> spans_;  ///< slow motion at times known beforehand
     double last_ring_ = 0;
-    std::deque<Motion<2>> ring_;  ///< of recent moments, until first break
+    std::deque<Motion> ring_;  ///< of recent moments, until first break
     bool separation_kept_ = false;
 };
 

@@ -18,7 +18,7 @@
 #include "app/report.hpp"
 #include "base/parallel.hpp"
 #include "base/units.hpp"
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
 #include "record/leftovers.hpp"
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
@@ -98,19 +98,8 @@ std::string command_of(const RunOptions& options, const fs::path& folder) {
     return shell_command(words);
 }
 
-/// The particle that moves fastest: where a run goes wrong.
-std::string fastest(const Simulation<2>& simulation) {
-    const std::vector<Vec<2>>& v = simulation.model().particles.velocity;
-    const auto most = std::max_element(v.begin(), v.end(), [](const Vec<2>& a, const Vec<2>& b) {
-        return a.cwiseAbs().maxCoeff() < b.cwiseAbs().maxCoeff();
-    });
-    const auto i = most - v.begin();
-    return fmt::format("fastest is particle {} (body \"{}\")", i,
-                       simulation.model().bodies[simulation.model().particles.body[i]].name);
-}
-
 /// Moves the simulation to its end. Returns why it stopped early, if it did.
-std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, Watch<2>& watch,
+std::optional<std::string> solve(const Scene& scene, Simulation& simulation, RunMonitor& watch,
                                  Recorder& recorder, bool quiet, StageTimes* profile) {
     Progress progress("solving", "steps", quiet);
     while (!reached_end(scene, watch, simulation.time())) {
@@ -119,7 +108,7 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
             const TimedStage timed(profile, "watch");
             watch.look();
         }
-        if (simulation.failure()) return simulation.failure()->message;
+        if (simulation.failure()) return simulation.failure();
         if (simulation.collapse()) {
             recorder.look();
             // After a break a collapse is how a fracture may end.
@@ -130,8 +119,8 @@ std::optional<std::string> solve(const Scene& scene, Simulation<2>& simulation, 
         if (!std::isfinite(recorder.imbalance()) ||
             (watch.settled() && recorder.imbalance() > runaway_imbalance))
             return fmt::format(
-                "step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %), {}; {}",
-                simulation.steps(), simulation.time(), 100 * recorder.imbalance(), fastest(simulation),
+                "step {}, t = {:.6g} s: the energy balance ran away (imbalance {:.0f} %), fastest is {}; {}",
+                simulation.steps(), simulation.time(), 100 * recorder.imbalance(), simulation.fastest_particle(),
                 simulation.likely_cause());
         if (simulation.steps() % 64 == 0 || scene.run.statics)
             progress.at(simulation.time() / scene.run.max_time, static_cast<double>(simulation.steps()),
@@ -163,7 +152,7 @@ void warn_of_fast_ramps(const Scene& scene, const RunSummary& summary, double da
     }
 }
 
-std::vector<std::string> warnings(const Scene& scene, const Simulation<2>& simulation,
+std::vector<std::string> warnings(const Scene& scene, const Simulation& simulation,
                                   const RunSummary& summary, double damping_rate, double largest_strain) {
     std::vector<std::string> list;
     if (simulation.instability()) list.push_back(*simulation.instability());
@@ -289,7 +278,7 @@ void print_results(const RunSummary& s, const fs::path& folder, const RunOptions
 
 }  // namespace
 
-void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simulation) {
+void pull_triggers(const Scene& scene, const Events& events, Simulation& simulation) {
     const auto reached = [&](const std::optional<Moment>& moment) {
         if (!moment) return false;
         const std::optional<double> time = events.time_of(*moment);
@@ -300,7 +289,7 @@ void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simu
         if (reached(scene.loads[l].until)) simulation.release(static_cast<int>(l));
 }
 
-bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
+bool reached_end(const Scene& scene, const RunMonitor& watch, double time) {
     if (time >= scene.run.max_time) return true;
     if (!scene.run.until) return false;
     if (scene.run.until->event == EventName::peak_load && !watch.peak_confirmed()) return false;
@@ -308,7 +297,7 @@ bool reached_end(const Scene& scene, const Watch<2>& watch, double time) {
     return end && time >= *end;
 }
 
-void require_separable(const Scene& scene, const Watch<2>& watch) {
+void require_separable(const Scene& scene, const RunMonitor& watch) {
     const auto asks = [](const std::optional<Moment>& m) { return m && m->event == EventName::separation; };
     const bool asked = asks(scene.run.until) || (scene.damping && asks(scene.damping->until)) ||
                        std::any_of(scene.loads.begin(), scene.loads.end(),
@@ -321,7 +310,7 @@ void require_separable(const Scene& scene, const Watch<2>& watch) {
               "even before the run (a particle that is both counts as loaded)"}});
 }
 
-void require_steps_that_end(const Scene& scene, const Simulation<2>& simulation) {
+void require_steps_that_end(const Scene& scene, const Simulation& simulation) {
     const double steps = scene.run.max_time / simulation.time_step();
     if (steps <= most_steps) return;
     throw SceneErrors(
@@ -340,14 +329,15 @@ int run_command(const RunOptions& options) {
     refuse_other_scene(folder, options);
     note_plain_numbers(options);
     Topology topology = topology_of(scene, built);
-    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
+    SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
     std::vector<std::string> stages = simulation.stage_names();
     stages.insert(stages.begin(), "setup");
     stages.insert(stages.end(), {"watch", "take states", "history", "wait for the writer", "write states"});
     StageTimes times(stages);
     StageTimes* const profile = options.profile ? &times : nullptr;
     simulation.profile(profile);
-    Watch<2> watch(simulation);
+    const std::unique_ptr<RunMonitor> monitor = make_run_monitor(simulation);
+    RunMonitor& watch = *monitor;
     require_separable(scene, watch);
     require_steps_that_end(scene, simulation);
     const double damping_rate = simulation.damping_rate();  // before separation ends it

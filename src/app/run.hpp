@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/draw.hpp"
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {
@@ -28,15 +28,15 @@ int run_command(const RunOptions& options);
 
 /// Throws SceneErrors where the scene waits for a separation that cannot happen, since nothing holds what is
 /// loaded.
-void require_separable(const Scene& scene, const Watch<2>& watch);
+void require_separable(const Scene& scene, const RunMonitor& watch);
 
 /// Throws SceneErrors where the run would take more steps than anyone can wait for.
-void require_steps_that_end(const Scene& scene, const Simulation<2>& simulation);
+void require_steps_that_end(const Scene& scene, const Simulation& simulation);
 
 /// What the scene ties to a moment: the end of damping, the release of a load. After every step.
-void pull_triggers(const Scene& scene, const Events& events, Simulation<2>& simulation);
+void pull_triggers(const Scene& scene, const Events& events, Simulation& simulation);
 /// Is the run of that scene at its end?
-bool reached_end(const Scene& scene, const Watch<2>& watch, double time);
+bool reached_end(const Scene& scene, const RunMonitor& watch, double time);
 
 struct RenderOptions {
     std::filesystem::path folder;

@@ -14,7 +14,7 @@
 #include "app/run.hpp"
 #include "base/parallel.hpp"
 #include "image/png.hpp"
-#include "measure/swing.hpp"
+#include "measure/modal_displacement.hpp"
 #include "record/files.hpp"
 #include "scene/suggest.hpp"
 
@@ -36,14 +36,15 @@ const std::string& built_in_scene(const std::string& name) {
 /// Runs a scene to its end and observes so many moments of it. Adds particles, steps and time to the row.
 VerifyRun observe(Scene scene, int observations, VerifyRow& row) {
     Built<2> built = build(scene);
-    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
-    Watch<2> watch(simulation);
-    const Swing<2> swing(simulation.model());
+    SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
+    const std::unique_ptr<RunMonitor> monitor = make_run_monitor(simulation);
+    RunMonitor& watch = *monitor;
+    const ModalDisplacement swing(simulation);
     VerifyRun run{.scene = std::move(scene), .events = {}, .observations = {}};
     const auto look = [&] {
         run.observations.push_back({.row = watch.row(),
-                                    .swing = swing.exists() ? swing(simulation.model()) : 0,
-                                    .angular_momentum = angular_momentum(simulation.model())});
+                                    .swing = swing.exists() ? swing(simulation) : 0,
+                                    .angular_momentum = angular_momentum(simulation)});
     };
     const double expected = run.scene.run.max_time / simulation.time_step();
     const auto stride = static_cast<std::int64_t>(std::ceil(expected / observations));
@@ -52,7 +53,7 @@ VerifyRun observe(Scene scene, int observations, VerifyRow& row) {
     while (!reached_end(run.scene, watch, simulation.time())) {
         simulation.step();
         watch.look();
-        if (simulation.failure()) throw std::runtime_error(simulation.failure()->message);
+        if (simulation.failure()) throw std::runtime_error(*simulation.failure());
         if (simulation.collapse()) throw std::runtime_error(*simulation.collapse());
         pull_triggers(run.scene, watch.events(), simulation);
         if (simulation.steps() % stride == 0) look();

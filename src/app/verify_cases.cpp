@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "measure/closed_form.hpp"
-#include "measure/swing.hpp"
+#include "measure/modal_displacement.hpp"
 
 namespace hibi {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {

@@ -109,10 +109,10 @@ void set_velocities(const Scene& scene, Model<2>& model, Problems& problems) {
         for (int i = body.begin; i < body.end; ++i) {
             const Vec<2>& X = particles.reference_position[i];
             const Vec<2> arm = X - centre;
-            particles.velocity[i] =
+            particles.initial_velocity[i] =
                 Vec<2>(spec.velocity[0](to_3d<2>(X), 0), spec.velocity[1](to_3d<2>(X), 0)) +
                 spec.spin * Vec<2>(-arm.y(), arm.x());
-            if (!particles.velocity[i].allFinite()) {
+            if (!particles.initial_velocity[i].allFinite()) {
                 problems.add(
                     fmt::format("body/{}/velocity", b),
                     fmt::format("[[body]] velocity is not finite at ({:g} m, {:g} m)", X.x(), X.y()));

@@ -4,7 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <numeric>
+
+#include "loads/supports.hpp"
+#include "model/intact_bonds.hpp"
 
 namespace hibi {
 
@@ -39,33 +41,20 @@ std::optional<int> free_particle(const Built<2>& built) {
     const Particles<2>& particles = built.model.particles;
     const Bonds& bonds = built.model.bonds;
     const int n = particles.count();
-    std::vector<int> part(n);
-    std::iota(part.begin(), part.end(), 0);
-    const auto root = [&](int i) {
-        while (part[i] != i) i = part[i] = part[part[i]];
-        return i;
-    };
-    for (int b = 0; b < bonds.count(); ++b) part[root(bonds.first[b])] = root(bonds.second[b]);
-
-    std::vector<std::array<bool, 3>> held(n);
-    const auto hold = [&](const std::vector<int>& list, const std::array<bool, 3>& axes) {
-        for (const int i : list)
-            for (int axis = 0; axis < 2; ++axis) held[i][axis] |= axes[axis];
-    };
-    for (const Hold& h : built.physics.holds) hold(h.particles, h.axes);
-    for (const Load& l : built.physics.loads) hold(l.particles, l.driven);
+    const std::vector<int> part = connected_parts(bonds, [](int) { return true; });
+    const HeldComponents held = held_or_driven(n, built.physics);
 
     std::vector<Vec<2>> centre(n, Vec<2>::Zero());
     std::vector<int> count(n, 0);
     for (int i = 0; i < n; ++i) {
-        centre[root(i)] += particles.reference_position[i];
-        ++count[root(i)];
+        centre[part[i]] += particles.reference_position[i];
+        ++count[part[i]];
     }
     // Each held component forbids one combination of the two translations and the rotation; a rotation is
     // measured by what it moves at one spacing from the centre of the part.
     std::vector<Mat<3>> forbidden(n, Mat<3>::Zero());
     for (int i = 0; i < n; ++i) {
-        const int r = root(i);
+        const int r = part[i];
         const Vec<2> arm = (particles.reference_position[i] - centre[r] / count[r]) / particles.spacing[i];
         for (int axis = 0; axis < 2; ++axis) {
             if (!held[i][axis]) continue;
@@ -74,7 +63,7 @@ std::optional<int> free_particle(const Built<2>& built) {
         }
     }
     for (int i = 0; i < n; ++i) {
-        if (root(i) != i) continue;
+        if (part[i] != i) continue;
         const Vec3 eigen =
             Eigen::SelfAdjointEigenSolver<Mat<3>>(forbidden[i], Eigen::EigenvaluesOnly).eigenvalues();
         if (!(eigen.minCoeff() > 1e-9 * std::max(1.0, eigen.maxCoeff()))) return i;

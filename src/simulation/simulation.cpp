@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/parallel.hpp"
@@ -45,6 +46,22 @@ std::span<const int> SimulationIn<Dim>::just_broken() const {
 template <int Dim>
 std::span<const double> SimulationIn<Dim>::breaking_strains() const {
     return breaking_ ? breaking_->breaking_strains() : std::span<const double>();
+}
+
+template <int Dim>
+double SimulationIn<Dim>::narrowest_in_spacings() const {
+    const Particles<Dim>& particles = model_.particles;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double narrowest = infinity;
+    for (const Body<Dim>& body : model_.bodies) {
+        Vec<Dim> low = Vec<Dim>::Constant(infinity), high = -low;
+        for (int i = body.begin; i < body.end; ++i) {
+            low = low.cwiseMin(particles.reference_position[i]);
+            high = high.cwiseMax(particles.reference_position[i]);
+        }
+        narrowest = std::min(narrowest, (high - low).minCoeff() / body.spacing);
+    }
+    return narrowest;
 }
 
 template <int Dim>

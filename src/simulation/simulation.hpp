@@ -33,6 +33,8 @@ class Simulation {
     virtual const Physics& physics() const = 0;
     virtual int particle_count() const = 0;
     virtual int bond_count() const = 0;
+    /// Smaller side of a body over its spacing; of several bodies the least [-].
+    virtual double narrowest_in_spacings() const = 0;
 
     virtual double time() const = 0;
     virtual std::int64_t steps() const = 0;
@@ -110,6 +112,7 @@ class SimulationIn final : public Simulation {
     const Physics& physics() const override { return physics_; }
     int particle_count() const override { return model_.particles.count(); }
     int bond_count() const override { return model_.bonds.count(); }
+    double narrowest_in_spacings() const override;
     double time() const override { return state_.time; }
     std::int64_t steps() const override { return state_.step; }
     double time_step() const override { return mover_->time_step(); }
