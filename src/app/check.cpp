@@ -11,7 +11,7 @@
 #include "app/quasi_static.hpp"
 #include "app/run.hpp"
 #include "base/units.hpp"
-#include "breaking/limits.hpp"
+#include "breaking/plane_fracture.hpp"
 #include "simulation/simulation.hpp"
 
 namespace hibi {

@@ -7,7 +7,7 @@
 
 #include "app/compare.hpp"
 #include "image/png.hpp"
-#include "breaking/limits.hpp"
+#include "breaking/plane_fracture.hpp"
 #include "record/files.hpp"
 #include "record/provenance.hpp"
 

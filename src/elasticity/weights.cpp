@@ -11,12 +11,13 @@ double weight(double r, double re) { return r < re ? re / r - 1 : 0; }
 
 template <int Dim>
 double reference_number_density(double ratio) {
-    static_assert(Dim == 2, "the sum below is plane");
-    const int reach = static_cast<int>(std::ceil(ratio));
+    const int reach = static_cast<int>(std::ceil(ratio)), depth = Dim == 3 ? reach : 0;
     double sum = 0;
-    for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x)
-            if (x != 0 || y != 0) sum += weight(std::hypot(x, y), ratio);
+    for (int z = -depth; z <= depth; ++z)
+        for (int y = -reach; y <= reach; ++y)
+            for (int x = -reach; x <= reach; ++x)
+                if (x != 0 || y != 0 || z != 0)
+                    sum += weight(z == 0 ? std::hypot(x, y) : std::hypot(x, y, z), ratio);
     return sum;
 }
 

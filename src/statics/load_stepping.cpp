@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 
 #include "base/units.hpp"
 #include "loads/applied_loads.hpp"
@@ -318,7 +319,9 @@ void LoadStepping<Dim>::go_back_to(State<Dim>& state, const State<Dim>& earlier)
 /// load.
 template <int Dim>
 void LoadStepping<Dim>::count_work(const State<Dim>& before, State<Dim>& now, bool smooth) {
-    for (const auto& interaction : interactions_) interaction->add_static_work(before, now);
+    // Dead loads before prescribed motion: the last digit of the sum depends on the order.
+    for (const auto& interaction : std::views::reverse(interactions_))
+        interaction->add_static_work(before, now);
     if (smooth) return;
     const Energies then = interactions_.energies(before), here = interactions_.energies(now);
     const double lost = (here.work - then.work) - (here.elastic - then.elastic);
