@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "measure/history.hpp"
 #include "model/model.hpp"
+#include "results/history.hpp"
 
 namespace hibi {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "measure/cracks.hpp"
-#include "measure/history.hpp"
-#include "measure/moment.hpp"
-#include "measure/snapshot.hpp"
 #include "physics/simulation.hpp"
+#include "results/history.hpp"
+#include "results/moment.hpp"
+#include "results/snapshot.hpp"
 
 namespace hibi {
 
