@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/estimate.hpp"
-#include "app/quasi_static.hpp"
 #include "app/run.hpp"
 #include "base/units.hpp"
 #include "breaking/plane_fracture.hpp"
 #include "simulation/simulation.hpp"
+#include "solve/estimate.hpp"
+#include "solve/quasi_static.hpp"
 
 namespace hibi {
 

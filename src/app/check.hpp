@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
 
-#include "app/quasi_static.hpp"
 #include "scene/read.hpp"
+#include "solve/quasi_static.hpp"
 
 namespace hibi {
 

@@ -8,25 +8,25 @@
 #include <cstdio>
 
 #include "app/check.hpp"
-#include "app/compare.hpp"
 #include "app/completion.hpp"
-#include "app/converge.hpp"
-#include "app/diff.hpp"
 #include "app/doctor.hpp"
-#include "app/draw.hpp"
-#include "app/figures.hpp"
 #include "app/manual.hpp"
 #include "app/new.hpp"
-#include "app/report.hpp"
 #include "app/reproduce.hpp"
 #include "app/run.hpp"
-#include "app/test_scenes.hpp"
-#include "app/verify.hpp"
 #include "base/parallel.hpp"
 #include "film/encoder.hpp"
+#include "picture_tests/diff.hpp"
+#include "picture_tests/test_scenes.hpp"
+#include "pictures/draw.hpp"
+#include "pictures/figures.hpp"
+#include "pictures/report.hpp"
 #include "record/provenance.hpp"
 #include "scene/read.hpp"
 #include "scene/schema.hpp"
+#include "studies/compare.hpp"
+#include "studies/converge.hpp"
+#include "studies/verify.hpp"
 
 namespace hibi {
 

@@ -7,8 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "app/process.hpp"
 #include "app/schema_line.hpp"
+#include "base/process.hpp"
+#include "scene/built_in_scenes.hpp"
 #include "scene/suggest.hpp"
 
 namespace hibi {

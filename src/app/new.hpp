@@ -1,13 +1,7 @@
 #pragma once
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace hibi {
-
-/// The scenes that come with the program, by name and text, in alphabetical order; then those of `hibi
-/// verify`, whose names begin with "verify/".
-const std::vector<std::pair<std::string, std::string>>& built_in_scenes();
 
 struct NewOptions {
     std::string name;   ///< file to write; empty: my_scene.toml; .toml is added

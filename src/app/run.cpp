@@ -10,19 +10,19 @@
 #include <numbers>
 #include <thread>
 
-#include "app/figures.hpp"
-#include "app/profile.hpp"
-#include "app/progress.hpp"
-#include "app/quasi_static.hpp"
-#include "app/recorder.hpp"
-#include "app/report.hpp"
 #include "base/parallel.hpp"
+#include "base/profile.hpp"
+#include "base/progress.hpp"
 #include "base/units.hpp"
 #include "measure/run_monitor.hpp"
+#include "pictures/figures.hpp"
+#include "pictures/report.hpp"
 #include "record/leftovers.hpp"
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
 #include "report/place.hpp"
+#include "solve/quasi_static.hpp"
+#include "solve/recorder.hpp"
 
 namespace hibi {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "app/draw.hpp"
 #include "measure/run_monitor.hpp"
+#include "pictures/draw.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "measure/history.hpp"
 #include "model/state.hpp"
+#include "results/history.hpp"
 
 namespace hibi {
 

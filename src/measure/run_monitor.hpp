@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "measure/history.hpp"
-#include "measure/moment.hpp"
+#include "results/history.hpp"
+#include "results/moment.hpp"
 #include "simulation/simulation.hpp"
 
 namespace hibi {

@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "measure/snapshot.hpp"
+#include "results/snapshot.hpp"
 #include "simulation/simulation.hpp"
 
 namespace hibi {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/stage_time.hpp"
-#include "measure/history.hpp"
-#include "measure/moment.hpp"
-#include "measure/snapshot.hpp"
+#include "results/history.hpp"
+#include "results/moment.hpp"
+#include "results/snapshot.hpp"
 
 namespace hibi {
 

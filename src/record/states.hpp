@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
 
-#include "measure/snapshot.hpp"
 #include "record/run_folder.hpp"
+#include "results/snapshot.hpp"
 
 namespace hibi {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/history.hpp"
+#include "results/history.hpp"
 
 namespace hibi {
 

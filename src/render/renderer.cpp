@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "measure/neighbour_bonds.hpp"
 #include "render/context.hpp"
 #include "render/gl.hpp"
 #include "render/program.hpp"
+#include "results/neighbour_bonds.hpp"
 
 namespace hibi {
 namespace {

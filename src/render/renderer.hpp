@@ -10,7 +10,7 @@
 #include "image/image.hpp"
 #include "image/theme.hpp"
 #include "image/view.hpp"
-#include "measure/snapshot.hpp"
+#include "results/snapshot.hpp"
 
 namespace hibi {
 

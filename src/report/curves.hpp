@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "image/chart.hpp"
-#include "measure/history.hpp"
-#include "measure/moment.hpp"
+#include "results/history.hpp"
+#include "results/moment.hpp"
 
 namespace hibi {
 

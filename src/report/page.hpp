@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "measure/history.hpp"
 #include "record/run_folder.hpp"
+#include "results/history.hpp"
 
 namespace hibi {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "measure/snapshot.hpp"
+#include "results/snapshot.hpp"
 
 namespace hibi {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/moment.hpp"
+#include "results/moment.hpp"
 #include "scene/document.hpp"
 #include "scene/expression.hpp"
 #include "scene/keys.hpp"

@@ -5,7 +5,7 @@
 #include "film/encoder.hpp"
 #include "image/theme.hpp"
 #include "image/view.hpp"
-#include "measure/snapshot.hpp"
+#include "results/snapshot.hpp"
 
 namespace hibi {
 

@@ -10,10 +10,10 @@
 
 #include "base/field.hpp"
 #include "image/view.hpp"
-#include "measure/moment.hpp"
-#include "measure/snapshot.hpp"
 #include "model/model.hpp"
 #include "physics/physics.hpp"
+#include "results/moment.hpp"
+#include "results/snapshot.hpp"
 
 namespace hibi {
 

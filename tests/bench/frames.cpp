@@ -6,8 +6,8 @@
 #include <chrono>
 #include <vector>
 
-#include "app/run_drawing.hpp"
 #include "base/memory.hpp"
+#include "pictures/run_drawing.hpp"
 #include "scene/read.hpp"
 
 int main(int count, char** words) {

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/reference.hpp"
-#include "app/run_drawing.hpp"
-#include "app/whole_run.hpp"
 #include "image/difference.hpp"
+#include "picture_tests/reference.hpp"
+#include "pictures/run_drawing.hpp"
+#include "pictures/run_extents.hpp"
 #include "record/files.hpp"
 #include "scene/read.hpp"
 #include "support/call.hpp"

@@ -1,5 +1,5 @@
 // hibi diff as a user calls it: pictures, folders, films and runs; what differs, and what cannot be compared.
-#include "app/diff.hpp"
+#include "picture_tests/diff.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/recorder.hpp"
 #include "base/units.hpp"
 #include "image/png.hpp"
 #include "measure/watch.hpp"
@@ -16,6 +15,7 @@
 #include "record/tables.hpp"
 #include "scene/everything.hpp"
 #include "scene/read.hpp"
+#include "solve/recorder.hpp"
 #include "support/call.hpp"
 #include "support/temporary_folder.hpp"
 
