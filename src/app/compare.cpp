@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "app/draw.hpp"
+#include "app/drawing_origin.hpp"
 #include "app/frame_writer.hpp"
 #include "app/progress.hpp"
 #include "app/run_drawing.hpp"
@@ -134,11 +135,13 @@ int columns_for(int panels, const PixelRect& plot, const std::array<double, 4>& 
     return best;
 }
 
-std::array<double, 4> common_box(const std::vector<Member>& members) {
+/// Counted from the origin (m).
+std::array<double, 4> common_box(const std::vector<Member>& members, const Vec3& origin) {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::array<double, 4> box{far, far, -far, -far};
     for (const Member& m : members) {
-        const std::array<double, 4> own = m.scene.view.window.value_or(body_window(*m.run, m.scene.view));
+        const std::array<double, 4> own = m.scene.view.window ? counted_from(origin, *m.scene.view.window)
+                                                              : body_window(*m.run, m.scene.view, origin);
         for (int k = 0; k < 4; ++k) box[k] = k < 2 ? std::min(box[k], own[k]) : std::max(box[k], own[k]);
     }
     return box;
@@ -170,7 +173,7 @@ class Comparison {
         overlay_ = std::make_unique<Overlay>(view_, content(options, range));
         const PixelRect plot = overlay_->plot();
         text_ = lay_out(view_.width, view_.height, {}).text;
-        const std::array<double, 4> box = common_box(members_);
+        const std::array<double, 4> box = common_box(members_, first.origin);
         const int count = static_cast<int>(members_.size());
         const int columns = columns_for(count, plot, box, label_row * text_, options.columns);
         const int rows = (count + columns - 1) / columns;
@@ -193,6 +196,7 @@ class Comparison {
                                                                   .title = {},
                                                                   .range = range,
                                                                   .plan = m.plan,
+                                                                  .origin = first.origin,
                                                                   .window = box,
                                                                   .event_labels = false},
                                                      options.renderer);
