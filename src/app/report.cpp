@@ -7,6 +7,7 @@
 #include "app/draw.hpp"
 #include "app/figures.hpp"
 #include "app/key_frames.hpp"
+#include "app/run_drawing.hpp"
 #include "base/units.hpp"
 #include "image/png.hpp"
 #include "record/files.hpp"
@@ -54,6 +55,7 @@ void write_report(const Scene& scene, const RunReader& run, const RendererOption
     const std::string description = describe(scene, run.topology());
     const Caption caption =
         caption_of(run.summary(), run.topology(), scene.about, description + setting(scene));
+    const FilmPlan plan = film_style(scene, run).plan;
     PageContent page{.summary = run.summary(),
                      .about = scene.about,
                      .description = description,
@@ -61,6 +63,7 @@ void write_report(const Scene& scene, const RunReader& run, const RendererOption
                      .scene = read_if_there(folder / "scene.toml"),
                      .caption = caption.alternative,
                      .poster = read_if_there(folder / "poster.png"),
+                     .poster_time = plan.time[static_cast<std::size_t>(plan.poster)],
                      .cracks_light = {},
                      .cracks_dark = {},
                      .film = {},
