@@ -48,6 +48,16 @@ struct Member {
     double end() const { return run->states().back().time - zero; }
 };
 
+/// Throws std::invalid_argument where a text cannot be drawn, before anything is.
+void require_drawable(const std::string& text, const char* option) {
+    try {
+        require_glyphs(text);
+    } catch (const std::runtime_error& error) {
+        throw std::invalid_argument(
+            fmt::format("\"{}\": {}; give another one with {}", text, error.what(), option));
+    }
+}
+
 std::vector<Member> read_members(const CompareOptions& options) {
     if (options.folders.size() < 2)
         throw std::invalid_argument(
@@ -77,7 +87,11 @@ std::vector<Member> read_members(const CompareOptions& options) {
     }
     const std::vector<std::string> labels =
         options.labels.empty() ? labels_of(options.folders) : options.labels;
-    for (std::size_t k = 0; k < members.size(); ++k) members[k].label = labels[k];
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        members[k].label = labels[k];
+        require_drawable(labels[k], "--label");
+    }
+    require_drawable(options.title, "--title");
     return members;
 }
 

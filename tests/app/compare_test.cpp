@@ -146,6 +146,9 @@ TEST_F(Compare, RefusesWhatCannotBeCompared) {
     CompareOptions labels = options({a, b});
     labels.labels = {"one"};
     EXPECT_THROW(make_comparison(labels), std::invalid_argument);
+    labels.labels = {"one", "🔨"};
+    EXPECT_THROW(make_comparison(labels), std::invalid_argument);
+    EXPECT_FALSE(fs::exists(folder_.path() / "out")) << "before anything is drawn";
     RunSummary summary = read_summary(b);
     summary.events.separation.reset();
     write_summary(b, summary);
