@@ -91,7 +91,7 @@ std::vector<Member> read_members(const CompareOptions& options) {
         members[k].label = labels[k];
         require_drawable(labels[k], "--label");
     }
-    require_drawable(options.title, "--title");
+    require_drawable(options.title.empty() ? members[0].scene.title : options.title, "--title");
     return members;
 }
 
