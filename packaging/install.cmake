@@ -38,7 +38,8 @@ endforeach()
 
 # Licences that ask to be handed on with what is compiled from headers and fonts.
 set(HIBI_BUILT_IN_COPYRIGHTS "")
-foreach(package IN ITEMS fonts-inter fonts-ipaexfont-gothic libcli11-dev libeigen3-dev nlohmann-json3-dev)
+foreach(package IN ITEMS fonts-inter fonts-ipaexfont-gothic fonts-droid-fallback fonts-nanum fonts-noto-core
+                         libcli11-dev libeigen3-dev nlohmann-json3-dev)
     set(file /usr/share/doc/${package}/copyright)
     if(EXISTS ${file})  # trees without documentation lack it
         file(READ ${file} text)

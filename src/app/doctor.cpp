@@ -14,6 +14,7 @@
 #include "base/parallel.hpp"
 #include "base/units.hpp"
 #include "film/encoder.hpp"
+#include "image/font_data.hpp"
 #include "image/text.hpp"
 #include "elasticity/bond_kernel.hpp"
 #include "render/renderer.hpp"
@@ -59,8 +60,8 @@ std::string look_at_units() {
 }
 
 std::string look_at_fonts() {
-    require_glyphs("Crack ひび 破壊");
-    return "Inter and IPAex Gothic, built in";
+    require_glyphs("Crack ひび 裂缝 균열 трещина ρωγμή شرخ סדק दरार รอยแตก ↔");
+    return fmt::format("{}, built in: Inter, IPAex Gothic and others", built_in_fonts().size());
 }
 
 std::string look_at_output() {
@@ -81,8 +82,9 @@ std::vector<Finding> examine_all() {
     findings.push_back(examine("renderer egl", false, "install libegl1 and libgl1-mesa-dri",
                                [] { return look_at_renderer(GlBackend::egl); }));
     findings.push_back(examine("video encoder", true, "install libavcodec59", look_at_encoder));
-    findings.push_back(examine(
-        "fonts", true, "install fonts-inter and fonts-ipaexfont-gothic, then build again", look_at_fonts));
+    findings.push_back(examine("fonts", true,
+                               "install the packages fonts-... of dependencies.txt, then build again",
+                               look_at_fonts));
     findings.push_back(examine("units", true, "", look_at_units));
     findings.push_back(
         examine("output folder", true, "change to a folder of your own, or give -o DIR", look_at_output));

@@ -3,10 +3,14 @@
 
 namespace hibi {
 
-/// The fonts built into the program, whole OpenType files: the same pixels on every machine, whatever is
-/// installed. Inter 4 (SIL Open Font License 1.1) and IPAex Gothic (IPA Font License 1.0).
-std::span<const unsigned char> inter_regular();
-std::span<const unsigned char> inter_semibold();
-std::span<const unsigned char> ipaex_gothic();
+struct BuiltInFont {
+    const char* name;
+    std::span<const unsigned char> bytes;  ///< a whole OpenType file
+};
+
+/// The fonts built into the program: the same pixels on every machine, whatever is installed there. The first
+/// is Inter, the second its semi-bold, the third IPAex Gothic; the others, one weight each, follow in the
+/// order in which they are asked for what those lack. Listed in CMakeLists.txt.
+std::span<const BuiltInFont> built_in_fonts();
 
 }  // namespace hibi

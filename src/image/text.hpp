@@ -20,10 +20,11 @@ struct TextStyle {
     Align align = Align::left;
 };
 
-/// Sets UTF-8 text in Inter, and in IPAex Gothic what Inter lacks, from the fonts built into the program.
-/// Glyphs are filled as outlines at exact positions: no hinting, no fontconfig, no rounding to whole pixels.
-/// Every function throws std::runtime_error for text that is not UTF-8, and for a character that neither font
-/// has, naming it. Not thread-safe: glyphs are cached.
+/// Sets UTF-8 text in Inter, and in the other fonts built into the program what Inter lacks: in any mixture
+/// of scripts and directions, letters joined and stacked as theirs wants. Glyphs are filled as outlines at
+/// exact positions: no hinting, no fontconfig, no rounding to whole pixels. Every function throws
+/// std::runtime_error for text that is not UTF-8, and MissingGlyph for a character that no font has, naming
+/// it. Not thread-safe: glyphs are cached.
 class Typesetter {
  public:
     Typesetter();
@@ -52,5 +53,9 @@ class Typesetter {
 
 /// Throws as Typesetter does where the text cannot be set: lets a scene be refused before it is simulated.
 void require_glyphs(const std::string& text);
+
+/// The text with a box in place of whatever cannot be set: for words that nobody can be asked to change, such
+/// as a message that names a file.
+std::string with_boxes(const std::string& text);
 
 }  // namespace hibi

@@ -7,6 +7,7 @@
 #include "image/overlay.hpp"
 #include "image/png.hpp"
 #include "pictures/draw.hpp"
+#include "pictures/drawing_origin.hpp"
 #include "pictures/notch_line.hpp"
 #include "pictures/picture.hpp"
 #include "pictures/run_drawing.hpp"
@@ -22,8 +23,11 @@ void draw_setup(const BuiltScene& setup, const std::filesystem::path& png, const
         throw std::runtime_error(
             fmt::format("{}: is no name of a PNG file; write for example -o setup.png", png.string()));
     const Scene& scene = setup.scene;
-    const Topology topology = topology_of(scene, setup.built);
+    Topology topology = topology_of(scene, setup.built);
     View view = scene.view;
+    const Vec3 origin = drawing_origin(topology, view.window);
+    topology = counted_from(origin, std::move(topology));
+    if (view.window) view.window = counted_from(origin, *view.window);
     view.map = "viridis";  // stands for the body's number here, not for a field
     view.show = {"title", "scale_bar", "supports", "loads"};
     const std::vector<Mark> marks =

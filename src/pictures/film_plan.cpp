@@ -92,8 +92,8 @@ void FilmPlan::set_frames(int frames, const Events& happened, double end) {
     mark(0, EventName::start);
     mark(*first_frame(time, end), EventName::end);
     for (const EventName name : {EventName::peak_load, EventName::first_break, EventName::separation})
-        // A load that never fell has no peak worth a label: it is simply the end. Nor has one under which nothing
-        // broke: it is as large as the scene made it.
+        // A load that never fell has no peak worth a label: it is simply the end. Nor has one under which
+        // nothing broke: it is as large as the scene made it.
         if (const std::optional<double> at = happened.time_of({name, 0});
             at && !(name == EventName::peak_load && (!happened.first_break || *at >= end)))
             if (const std::optional<int> frame = first_frame(time, *at)) mark(*frame, name);

@@ -95,7 +95,8 @@ std::vector<KeyMoment> key_moments(const Scene& scene, const RunReader& run) {
         const Events& events = run.summary().events;
         const std::optional<double> time = events.time_of(wanted);
         if (!time || *time < begin || *time > end) continue;
-        if (wanted.event == EventName::peak_load && !events.first_break) continue;  // as large as the scene made it
+        if (wanted.event == EventName::peak_load && !events.first_break)
+            continue;  // as large as the scene made it
         const std::string label = words(wanted);
         const auto same = std::ranges::find(moments, *time, &KeyMoment::time);
         if (same == moments.end())

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "pictures/drawing_origin.hpp"
 #include "results/neighbour_bonds.hpp"
 
 namespace hibi {
@@ -20,8 +21,8 @@ std::vector<int> drawn_bonds(const Topology& topology, const std::string& which)
 }
 
 PictureSource::PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range,
-                             StageTimes* profile)
-    : run_(run), view_(view), range_(range), profile_(profile) {
+                             const Vec3& origin, StageTimes* profile)
+    : run_(run), view_(view), range_(range), topology_(topology_from(origin, run)), profile_(profile) {
     for (int b = 0; b < static_cast<int>(run.broken_at().size()); ++b)
         if (std::isfinite(run.broken_at()[b])) by_time_of_break_.push_back(b);
     // Fresh cracks are drawn over old ones.
@@ -98,7 +99,7 @@ Picture2& PictureSource::at(double time, bool with_intact) {
 }
 
 void PictureSource::interpolate(const Loaded& a, const Loaded& b, double share) {
-    const std::vector<Vec3>& X = run_.topology().reference_position;
+    const std::vector<Vec3>& X = topology_.reference_position;
     const std::size_t count = X.size();
     const double width = range_[1] - range_[0];
     x_.resize(count), y_.resize(count);

@@ -18,9 +18,9 @@ namespace hibi {
 /// between states, bonds never: one is broken iff broken_at <= time.
 class PictureSource {
  public:
-    /// The run is kept as a reference.
+    /// The run is kept as a reference. Positions are counted from the origin (m).
     PictureSource(const RunReader& run, const View& view, const std::array<double, 2>& range,
-                  StageTimes* profile = nullptr);
+                  const Vec3& origin = Vec3::Zero(), StageTimes* profile = nullptr);
 
     PictureSource(const PictureSource&) = delete;  // what is read ahead knows its place
 
@@ -30,7 +30,7 @@ class PictureSource {
     /// Begins to read what the picture at this time needs, on a thread of its own. A state that cannot be
     /// read is an error of the picture that needs it.
     void expect(double time);
-    const std::vector<double>& x() const { return x_; }  ///< of the last picture, particle by particle (m)
+    const std::vector<double>& x() const { return x_; }  ///< of the last picture, particle by particle, counted from the origin (m)
     const std::vector<double>& y() const { return y_; }
 
  private:
@@ -53,6 +53,7 @@ class PictureSource {
     const RunReader& run_;
     View view_;
     std::array<double, 2> range_;
+    const Topology& topology_;  ///< positions counted from the origin
     StageTimes* profile_;
     std::optional<std::vector<int>> intact_candidates_{};  ///< found when they are first wanted
     std::vector<int> by_time_of_break_;

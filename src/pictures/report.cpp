@@ -9,6 +9,7 @@
 #include "pictures/draw.hpp"
 #include "pictures/figures.hpp"
 #include "pictures/key_frames.hpp"
+#include "pictures/run_drawing.hpp"
 #include "record/files.hpp"
 #include "record/provenance.hpp"
 #include "report/caption.hpp"
@@ -54,6 +55,7 @@ void write_report(const Scene& scene, const RunReader& run, const RendererOption
     const std::string description = describe(scene, run.topology());
     const Caption caption =
         caption_of(run.summary(), run.topology(), scene.about, description + setting(scene));
+    const FilmPlan plan = film_style(scene, run).plan;
     PageContent page{.summary = run.summary(),
                      .about = scene.about,
                      .description = description,
@@ -61,6 +63,7 @@ void write_report(const Scene& scene, const RunReader& run, const RendererOption
                      .scene = read_if_there(folder / "scene.toml"),
                      .caption = caption.alternative,
                      .poster = read_if_there(folder / "poster.png"),
+                     .poster_time = plan.time[static_cast<std::size_t>(plan.poster)],
                      .cracks_light = {},
                      .cracks_dark = {},
                      .film = {},

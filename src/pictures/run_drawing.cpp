@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "image/background.hpp"
+#include "pictures/drawing_origin.hpp"
 #include "pictures/run_extents.hpp"
 
 namespace hibi {
@@ -62,7 +63,8 @@ DrawingStyle film_style(const Scene& scene, const RunReader& run) {
     DrawingStyle style{.view = shown_view(scene),
                        .title = scene.title,
                        .plan = plan_film(scene.movie, run.summary().events, run.broken_at(),
-                                         run.states().front().time, run.states().back().time)};
+                                         run.states().front().time, run.states().back().time),
+                       .origin = drawing_origin(run.topology(), scene.view.window)};
     style.range =
         scene.view.range.value_or(colour_range(run, scene.view.field, *style.view.map == "diverging"));
     return style;
@@ -71,15 +73,16 @@ DrawingStyle film_style(const Scene& scene, const RunReader& run) {
 RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, DrawingStyle style,
                        const RendererOptions& options)
     : run_(run),
+      topology_(topology_from(style.origin, run)),
       profile_(options.profile),
       style_(std::move(style)),
       until_(run.summary().events.separation ? run.summary().events.separation->time
                                              : std::numeric_limits<double>::infinity()),
-      source_(run, style_.view, style_.range, options.profile),
+      source_(run, style_.view, style_.range, style_.origin, options.profile),
       overlay_(style_.view, content(scene)),
-      renderer_(style_.view, run.topology(), options),
-      marks_(find_marks(run.topology(), style_.view.shows("supports"), style_.view.shows("loads"))),
-      notches_(find_notches(run.topology())),
+      renderer_(style_.view, topology_, options),
+      marks_(find_marks(topology_, style_.view.shows("supports"), style_.view.shows("loads"))),
+      notches_(find_notches(topology_)),
       unit_(symbol_unit(style_.view)) {
     for (int k = 0; k < static_cast<int>(run.topology().loads.size()); ++k) {
         double largest = 0;
@@ -142,14 +145,17 @@ void RunDrawing::place_symbols(double time, OverlayFrame& over) const {
         over.symbols.push_back(place_mark(mark, source_.x(), source_.y(), camera_, size, unit_));
     }
     for (const NotchLine& notch : notches_)
-        over.symbols.push_back(place_notch(notch, run_.topology(), source_.x(), source_.y(), camera_));
+        over.symbols.push_back(place_notch(notch, topology_, source_.x(), source_.y(), camera_));
 }
 
 /// The window of the user's, or the body in all states that count, with its symbols at some of them.
 Camera2 RunDrawing::camera() {
     const PixelRect plot = overlay_.plot();
     const View& view = style_.view;
-    if (const auto& w = view.window) return Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], plot);
+    if (view.window) {
+        const std::array<double, 4> w = counted_from(style_.origin, *view.window);
+        return Camera2::fit(w[0], w[1], w[2], w[3], plot);
+    }
     std::vector<Reserved> reserved;
     const int last = last_counting_state(run_);
     const std::vector<double>& loose = loose_since(run_);
@@ -159,8 +165,8 @@ Camera2 RunDrawing::camera() {
         const int state = last * k / samples;
         const double time = run_.states()[state].time;
         for (const auto& [i, u] : displaced_marks(run_, state)) {
-            x[i] = run_.topology().reference_position[i].x() + view.magnify * u.x();
-            y[i] = run_.topology().reference_position[i].y() + view.magnify * u.y();
+            x[i] = topology_.reference_position[i].x() + view.magnify * u.x();
+            y[i] = topology_.reference_position[i].y() + view.magnify * u.y();
         }
         for (const Mark& mark : marks_) {
             if (std::ranges::any_of(mark.particles, [&](int i) { return loose[i] <= time; })) continue;
@@ -168,7 +174,7 @@ Camera2 RunDrawing::camera() {
             for (const Reserved& r : reserve(mark, x, y, size, view)) reserved.push_back(r);
         }
     }
-    return camera_for(style_.window.value_or(body_window(run_, view)), reserved, plot);
+    return camera_for(style_.window.value_or(body_window(run_, view, style_.origin)), reserved, plot);
 }
 
 double RunDrawing::load_size(int load, double time) const {

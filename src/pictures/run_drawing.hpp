@@ -20,7 +20,9 @@ struct DrawingStyle {
     std::string title;
     std::array<double, 2> range{0, 1};  ///< of the colours, in the field's SI unit
     FilmPlan plan;
-    std::optional<std::array<double, 4>> window{};  ///< of the body, in place of that of its run (m)
+    Vec3 origin = Vec3::Zero();  ///< that positions in the picture are counted from (m)
+    /// Of the body, in place of that of its run, counted from the origin (m).
+    std::optional<std::array<double, 4>> window{};
     /// Crack history: the unloaded body in one colour, each broken bond coloured by its time of breaking,
     /// `range` being in seconds.
     bool history = false;
@@ -53,6 +55,7 @@ class RunDrawing {
     Camera2 camera();
 
     const RunReader& run_;
+    const Topology& topology_;  ///< of the run, positions counted from the style's origin
     StageTimes* profile_;
     DrawingStyle style_;
     double until_;  ///< of what counts: separation, or infinity (s)

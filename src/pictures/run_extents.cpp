@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pictures/drawing_origin.hpp"
+
 namespace hibi {
 
 namespace {
@@ -101,10 +103,10 @@ std::vector<double> find_loose(const RunReader& run) {
     return loose;
 }
 
-std::array<double, 4> find_window(const RunReader& run, const View& view) {
+std::array<double, 4> find_window(const RunReader& run, const View& view, const Vec3& origin) {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::array<double, 4> box{far, far, -far, -far};
-    const Topology& topology = run.topology();
+    const Topology& topology = topology_from(origin, run);
     for (const Vec3& X : topology.reference_position) include(box, X.x(), X.y());
     const std::array<double, 4> at_rest = box;
     // Reading every state takes longer than drawing it: where their extents are no help, some are enough.
@@ -115,8 +117,10 @@ std::array<double, 4> find_window(const RunReader& run, const View& view) {
     const bool extents_do =
         view.magnify == 1 && std::ranges::none_of(loose, [&](double since) { return since <= end; });
     const int stride = extents_do ? 1 : std::max(1, last / most_read);
+    // An extent is counted from the origin of the scene: far from there it is not exact enough.
+    const bool read_extents = extents_do && origin == Vec3::Zero();
     for (int s = last; view.magnify != 0 && s >= 0; s -= stride) {
-        if (extents_do) {
+        if (read_extents) {
             const RunReader::Extent extent = run.extent(s);
             include(box, extent.low.x(), extent.low.y());
             include(box, extent.high.x(), extent.high.y());
@@ -155,9 +159,10 @@ const std::vector<double>& loose_since(const RunReader& run) {
     return run.once<std::vector<double>>("loose_since", [&] { return find_loose(run); });
 }
 
-std::array<double, 4> body_window(const RunReader& run, const View& view) {
-    return run.once<std::array<double, 4>>(fmt::format("body_window {}", view.magnify),
-                                           [&] { return find_window(run, view); });
+std::array<double, 4> body_window(const RunReader& run, const View& view, const Vec3& origin) {
+    return run.once<std::array<double, 4>>(
+        fmt::format("body_window {} {} {}", view.magnify, origin.x(), origin.y()),
+        [&] { return find_window(run, view, origin); });
 }
 
 const std::vector<std::pair<int, Vec3>>& displaced_marks(const RunReader& run, int state) {

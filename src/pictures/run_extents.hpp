@@ -19,8 +19,9 @@ int last_counting_state(const RunReader& run);
 const std::vector<double>& loose_since(const RunReader& run);
 
 /// Box around the particles in all states that count (m), discs included, but for those that have come loose:
-/// x0, y0, x1, y1.
-std::array<double, 4> body_window(const RunReader& run, const View& view);
+/// x0, y0, x1, y1, counted from the origin (m).
+std::array<double, 4> body_window(const RunReader& run, const View& view,
+                                  const Vec3& origin = Vec3::Zero());
 
 /// Displacements (m) in a state of the particles that supports and loads hold, by particle.
 const std::vector<std::pair<int, Vec3>>& displaced_marks(const RunReader& run, int state);

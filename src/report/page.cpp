@@ -148,6 +148,7 @@ Json run_json(const PageContent& c, const std::vector<Chart>& charts, const std:
     }
     return {{"fps", c.fps},
             {"frames", c.frame_times},
+            {"poster", c.poster.empty() ? Json() : Json(c.poster_time)},
             {"breaks", c.summary.broken > 0},
             {"history", history},
             {"scales",
@@ -187,9 +188,11 @@ std::string film_html(const PageContent& c) {
     std::string text = "<figure class=\"film\" id=\"film\">\n";
     if (!c.film.empty())
         text += fmt::format(
-            "<video muted playsinline controls preload=\"auto\" aria-label=\"{}\" "
+            "<video muted playsinline controls preload=\"auto\" aria-label=\"{}\"{} "
             "src=\"{}\"></video>\n",
-            alternative, data_uri(c.film_type, c.film));
+            alternative,
+            c.poster.empty() ? "" : fmt::format(" poster=\"{}\"", data_uri("image/png", c.poster)),
+            data_uri(c.film_type, c.film));
     if (!c.poster.empty())
         text += fmt::format("<img class=\"{}\" alt=\"{}\" src=\"{}\">\n", c.film.empty() ? "" : "only-print",
                             alternative, data_uri("image/png", c.poster));

@@ -21,7 +21,8 @@ struct PageContent {
     History history;
     std::string scene;  ///< scene.toml
     std::string caption;
-    std::string poster;                     ///< PNG; empty: left out
+    std::string poster;      ///< PNG; empty: left out. It stands there until the film plays
+    double poster_time = 0;  ///< simulated time that it shows (s)
     std::string cracks_light, cracks_dark;  ///< PNG, for either theme; empty: left out
     std::string film;                 ///< empty: the poster stands in its place
     std::string film_type;            ///< video/mp4 or video/webm

@@ -33,7 +33,7 @@
   };
 
   // --- the moment that is shown: simulated time, from which everything else follows
-  let now = times.length ? times[0] : h.time[0];
+  let now = run.poster ?? (times.length ? times[0] : h.time[0]);
   const readout = document.getElementById('readout');
   const keys = [...document.querySelectorAll('[data-time]')];
   const cursors = [...document.querySelectorAll('.cursor')].map((svg, k) => ({
@@ -81,8 +81,10 @@
     show(video ? times[k] : t);
   };
   if (video) {
+    // A browser shows the poster until the film has played or moved for the first time.
+    const showsPoster = () => video.poster && video.paused && video.currentTime === 0;
     // The middle of a frame again: a seek that has not arrived must not move the cursor back.
-    const follow = () => { if (!video.seeking) show(times[frameNow()]); };
+    const follow = () => { if (!video.seeking && !showsPoster()) show(times[frameNow()]); };
     const tick = () => { follow(); video.requestVideoFrameCallback(tick); };
     if ('requestVideoFrameCallback' in video) video.requestVideoFrameCallback(tick);
     for (const event of ['timeupdate', 'seeked', 'ended']) video.addEventListener(event, follow);

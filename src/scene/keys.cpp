@@ -45,7 +45,7 @@ const std::vector<KeyBlock>& scene_blocks() {
     static const std::vector<KeyBlock> blocks{
         {"", "the top of the file", Form::single, "What the experiment is.", {
             {"version", integer, "", "1", "version of the scene format", "1"},
-            {"title", text, "", "the file's name", "shown on every frame; one line", R"("Bending failure")"},
+            {"title", text, "", "the file's name", "shown on every frame; one line, in any script; there are no emoji", R"("Bending failure")"},
             {"about", text, "", "empty", "what it shows, and where it is from", R"("Figure 7 of ...")"},
         }},
         {"model", "[model]", Form::single, "The kind of model.", {

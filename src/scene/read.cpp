@@ -12,6 +12,8 @@
 
 #include "base/hash.hpp"
 #include "base/units.hpp"
+#include "image/shaping.hpp"
+#include "image/text.hpp"
 #include "scene/build.hpp"
 #include "scene/checks.hpp"
 #include "scene/prescan.hpp"
@@ -170,6 +172,32 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
         reader.fail("title", "title needs to be one line");
 }
 
+/// What stands in pictures must have glyphs: to be told now, not when everything has been simulated.
+void check_texts(const Value& document, const Scene& scene, Problems& problems) {
+    const Value* const title = document.find("title");
+    if (problems.fine("title")) try {
+            require_glyphs(scene.title);
+        } catch (const MissingGlyph& missing) {
+            Place place = title ? title->place : document.place;
+            if (title && title->plain_text)
+                place.column += 1 + static_cast<int>(missing.at), place.length = 1;
+            problems.add(
+                "title", place,
+                fmt::format("title{}: {}", title ? "" : ", which is the file's name", missing.what()),
+                title ? "leave the character out, or write a word"
+                      : "give the scene a title of its own: title = \"...\"");
+        }
+    const Value* const materials = document.find("material");
+    for (const Entry& entry : materials ? materials->entries : std::vector<Entry>{}) try {
+            require_glyphs(entry.key);
+        } catch (const MissingGlyph& missing) {
+            problems.add(
+                "material/name/" + entry.key, entry.place,
+                fmt::format("[material.{}]: {}; the name stands in pictures", entry.key, missing.what()),
+                "choose another name");
+        }
+}
+
 }  // namespace
 
 namespace {
@@ -196,6 +224,7 @@ BuiltScene parse(const std::string& text, const std::string& name, const Overrid
         !scene.loads.empty())
         scene.loads.front().primary = true;
     check_scene(scene, context.problems);
+    if (assembled) check_texts(document, scene, context.problems);
     if (assembled) read.built = assemble(scene, context.problems);
     if (!context.problems.errors().empty()) throw SceneErrors(name, text, context.problems.errors());
     return read;

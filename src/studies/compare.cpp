@@ -17,6 +17,7 @@
 #include "image/layout.hpp"
 #include "image/text.hpp"
 #include "pictures/draw.hpp"
+#include "pictures/drawing_origin.hpp"
 #include "pictures/frame_writer.hpp"
 #include "pictures/run_drawing.hpp"
 #include "pictures/run_extents.hpp"
@@ -47,6 +48,16 @@ struct Member {
     double end() const { return run->states().back().time - zero; }
 };
 
+/// Throws std::invalid_argument where a text cannot be drawn, before anything is.
+void require_drawable(const std::string& text, const char* option) {
+    try {
+        require_glyphs(text);
+    } catch (const std::runtime_error& error) {
+        throw std::invalid_argument(
+            fmt::format("\"{}\": {}; give another one with {}", text, error.what(), option));
+    }
+}
+
 std::vector<Member> read_members(const CompareOptions& options) {
     if (options.folders.size() < 2)
         throw std::invalid_argument(
@@ -76,7 +87,11 @@ std::vector<Member> read_members(const CompareOptions& options) {
     }
     const std::vector<std::string> labels =
         options.labels.empty() ? labels_of(options.folders) : options.labels;
-    for (std::size_t k = 0; k < members.size(); ++k) members[k].label = labels[k];
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        members[k].label = labels[k];
+        require_drawable(labels[k], "--label");
+    }
+    require_drawable(options.title.empty() ? members[0].scene.title : options.title, "--title");
     return members;
 }
 
@@ -134,11 +149,13 @@ int columns_for(int panels, const PixelRect& plot, const std::array<double, 4>& 
     return best;
 }
 
-std::array<double, 4> common_box(const std::vector<Member>& members) {
+/// Counted from the origin (m).
+std::array<double, 4> common_box(const std::vector<Member>& members, const Vec3& origin) {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::array<double, 4> box{far, far, -far, -far};
     for (const Member& m : members) {
-        const std::array<double, 4> own = m.scene.view.window.value_or(body_window(*m.run, m.scene.view));
+        const std::array<double, 4> own = m.scene.view.window ? counted_from(origin, *m.scene.view.window)
+                                                              : body_window(*m.run, m.scene.view, origin);
         for (int k = 0; k < 4; ++k) box[k] = k < 2 ? std::min(box[k], own[k]) : std::max(box[k], own[k]);
     }
     return box;
@@ -170,7 +187,7 @@ class Comparison {
         overlay_ = std::make_unique<Overlay>(view_, content(options, range));
         const PixelRect plot = overlay_->plot();
         text_ = lay_out(view_.width, view_.height, {}).text;
-        const std::array<double, 4> box = common_box(members_);
+        const std::array<double, 4> box = common_box(members_, first.origin);
         const int count = static_cast<int>(members_.size());
         const int columns = columns_for(count, plot, box, label_row * text_, options.columns);
         const int rows = (count + columns - 1) / columns;
@@ -193,6 +210,7 @@ class Comparison {
                                                                   .title = {},
                                                                   .range = range,
                                                                   .plan = m.plan,
+                                                                  .origin = first.origin,
                                                                   .window = box,
                                                                   .event_labels = false},
                                                      options.renderer);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image/png.hpp"
 #include "breaking/plane_fracture.hpp"
+#include "image/png.hpp"
 #include "record/files.hpp"
 #include "record/provenance.hpp"
 #include "studies/compare.hpp"

@@ -13,6 +13,7 @@
 #include "base/units.hpp"
 #include "image/png.hpp"
 #include "image/sheet.hpp"
+#include "image/text.hpp"
 #include "pictures/key_frames.hpp"
 #include "record/files.hpp"
 #include "record/leftovers.hpp"
@@ -260,7 +261,7 @@ void write_sheet(const std::vector<StudyRun>& runs, const fs::path& folder, cons
     std::vector<Panel> panels;
     int height = width / 2;
     for (const StudyRun& study : runs) {
-        Panel panel{.image = {}, .label = study.label(), .detail = "failed: " + study.error};
+        Panel panel{.image = {}, .label = study.label(), .detail = with_boxes("failed: " + study.error)};
         if (study.done()) {
             const Scene scene = read_recorded_scene(study.folder);
             const RunReader run(study.folder);
@@ -283,7 +284,7 @@ void write_sheet(const std::vector<StudyRun>& runs, const fs::path& folder, cons
                 panel.image.bgra[static_cast<std::size_t>(4 * i + k)] =
                     static_cast<std::uint8_t>(255 * c[2 - k]);
     }
-    write_png(folder / "sheet.png", make_sheet(panels, title, columns, style),
+    write_png(folder / "sheet.png", make_sheet(panels, with_boxes(title), columns, style),
               {.text = to_texts(provenance), .small = true, .dpi = style.dpi});
 }
 

@@ -114,7 +114,8 @@ void write_files(const std::vector<VerifyRow>& rows, const VerifyOptions& option
     const std::vector<Chart> charts = speed_charts(rows);
     if (charts.empty()) return;
     const FigureStyle style{.theme = "light"};
-    write_file(options.folder / "speed_vs_error.svg", chart_svg(charts, style, nullptr, to_comment(provenance)));
+    write_file(options.folder / "speed_vs_error.svg",
+               chart_svg(charts, style, nullptr, to_comment(provenance)));
     write_png(options.folder / "speed_vs_error.png", chart_image(charts, style),
               {.text = to_texts(provenance), .small = true, .dpi = style.dpi});
 }

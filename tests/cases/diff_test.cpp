@@ -10,7 +10,7 @@
 
 #include "base/units.hpp"
 #include "image/png.hpp"
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
 #include "record/files.hpp"
 #include "record/tables.hpp"
 #include "scene/everything.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
 #include "scene/read.hpp"
 
 namespace hibi {

@@ -20,6 +20,53 @@ TEST(Text, JapaneseGreekAndPunctuationHaveGlyphs) {
     EXPECT_EQ(message_of("片持ち平板の曲げ破壊（MPS法） ひび — ν = 0.3, 10⁻⁶, µm, × · −"), "");
 }
 
+TEST(Text, ManyScriptsHaveGlyphs) {
+    for (const char* text : {"한국어 외팔보",
+                             "压缩试验：断裂",
+                             "壓縮試驗",
+                             "مرحبا بالعالم، ٣",
+                             "שבר בלוח",
+                             "क्षैतिज धरन।",
+                             "การแตกหัก น้ำ",
+                             "Θραύση πλάκας",
+                             "Разрушение балки ґ",
+                             "ফাটল",
+                             "ਦਰਾੜ",
+                             "તિરાડ",
+                             "ଫାଟ",
+                             "விரிசல்",
+                             "పగులు",
+                             "ಬಿರುಕು",
+                             "വിള്ളൽ",
+                             "ඉරිතැලීම",
+                             "ຮອຍແຕກ",
+                             "ស្នាមប្រេះ",
+                             "အက်ကွဲ",
+                             "ბზარი",
+                             "ճաք",
+                             "ስንጥቅ",
+                             "vết nứt",
+                             "شکستگی",
+                             "→ ⇒ ∑ ∮ √ ✔ ⚠ ①"})
+        EXPECT_EQ(message_of(text), "") << text;
+}
+
+TEST(Text, WordsThatNobodyCanChangeShowABoxForWhatIsMissing) {
+    EXPECT_EQ(with_boxes("plain"), "plain");
+    EXPECT_EQ(with_boxes("out/🔨/שלום\n"), "out/□/שלום ");
+    EXPECT_EQ(message_of(with_boxes("ab\xff")), "");
+}
+
+TEST(Text, ShorteningLeavesNoLetterWithoutItsSigns) {
+    const Typesetter type;
+    const std::string title = "दरारदरारदरा";
+    for (double width = 20; width < 70; width += 1) {
+        const std::string cut = type.shortened(title, {.size = 12}, width);
+        EXPECT_LE(type.width(cut, {.size = 12}), width);
+        EXPECT_TRUE(cut == title || title.substr(cut.size() - 3).find("ा") != 0) << cut;
+    }
+}
+
 TEST(Text, AMissingGlyphIsAnErrorNamingTheCharacter) {
     const std::string message = message_of("crack 😀");
     EXPECT_NE(message.find("😀"), std::string::npos);

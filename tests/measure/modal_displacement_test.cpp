@@ -1,4 +1,4 @@
-#include "measure/swing.hpp"
+#include "measure/modal_displacement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/watch.hpp"
+#include "measure/run_monitor.hpp"
 
 #include <gtest/gtest.h>
 

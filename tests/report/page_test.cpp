@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "record/provenance.hpp"
+#include "report/html.hpp"
 
 namespace hibi {
 namespace {
@@ -31,6 +32,7 @@ PageContent content() {
     }
     c.scene = "title = \"</script><script>alert(1)</script>\"";
     c.poster = "poster";
+    c.poster_time = 1;
     c.film = "film";
     c.film_type = "video/mp4";
     c.frame_times = {0, 1, 2};
@@ -47,6 +49,15 @@ nlohmann::json data_of(const std::string& page) {
     const std::string open = "id=\"run\">";
     const std::size_t begin = page.find(open) + open.size();
     return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+TEST(ReportPage, ThePosterStandsWhereTheFilmHasNotPlayedYet) {
+    PageContent c = content();
+    EXPECT_EQ(count(report_page(c), " poster=\"" + data_uri("image/png", "poster") + "\""), 1u);
+    EXPECT_EQ(data_of(report_page(c))["poster"], 1.0);
+    c.poster = "";
+    EXPECT_EQ(count(report_page(c), "poster="), 0u);
+    EXPECT_TRUE(data_of(report_page(c))["poster"].is_null());
 }
 
 TEST(ReportPage, NothingOfTheSceneBecomesMarkup) {

@@ -211,6 +211,32 @@ INSTANTIATE_TEST_SUITE_P(
               "[[fix]]"}),
     [](const auto& test) { return std::string(test.param.name); });
 
+TEST(SceneErrors, ACharacterWithoutAGlyphIsToldWhereItStands) {
+    EXPECT_EQ(answer(replaced(small_scene, "\"small\"", "\"Beam 한국 🔨\"")),
+              "s.toml:2:18: error: title: no built-in font has \"🔨\" (U+1F528)\n"
+              "    2 | title = \"Beam 한국 🔨\"\n"
+              "      |                    ^^ leave the character out, or write a word");
+    const std::string named =
+        replaced(replaced(small_scene, "[material.concrete]", "[material.\"c🔨\"]"), "\"concrete\"", "\"c🔨\"");
+    EXPECT_NE(answer(named).find("s.toml:5:11: error: [material.c🔨]: no built-in font has \"🔨\" (U+1F528)"),
+              std::string::npos)
+        << answer(named);
+    EXPECT_EQ(answer(replaced(small_scene, "\"small\"", "\"كسر اللوح, 압축, 压缩, दरार\"")), "");
+}
+
+TEST(SceneErrors, AFilesNameThatStandsAsTitleNeedsGlyphsToo) {
+    const std::string untitled = replaced(small_scene, "title = \"small\"\n", "");
+    EXPECT_EQ(parse_scene(untitled, "קורה.toml").title, "קורה");
+    try {
+        parse_scene(untitled, "🔨.toml");
+        FAIL();
+    } catch (const SceneErrors& errors) {
+        EXPECT_NE(std::string(errors.what()).find("title, which is the file's name: no built-in font has"),
+                  std::string::npos)
+            << errors.what();
+    }
+}
+
 TEST(SceneErrors, AllMistakesComeInOneGoSortedByPlace) {
     std::string text = replaced(small_scene, "\"60 s\"", "\"60 m\"");
     text = replaced(text, "\"210 MPa\"", "\"210 MN\"");

@@ -20,9 +20,11 @@ using Json = nlohmann::json;
 /// Two recorded cantilevers, the second of them ending earlier or with other parameters.
 class Compare : public testing::Test {
  protected:
-    fs::path write(const std::string& name, const std::map<std::string, std::string>& parameters) {
+    fs::path write(const std::string& name, const std::map<std::string, std::string>& parameters,
+                   const Vec3& corner = Vec3::Zero()) {
         const fs::path folder = folder_.path() / name;
         RecordedCantilever cantilever;
+        cantilever.corner = corner;
         cantilever.write(folder);
         Scene scene = cantilever.scene();
         scene.run.max_time = 2;
@@ -89,6 +91,18 @@ TEST_F(Compare, MakesAFilmWithTheFramesOfARunAndIsTheSameTwice) {
     EXPECT_NE(text["Command"].find("hibi compare"), std::string::npos);
 }
 
+TEST_F(Compare, RunsFarFromTheOriginGiveTheSameFilm) {
+    const auto frames = [&](const std::string& name, const Vec3& corner) {
+        CompareOptions o = options({write(name + "1", {}, corner), write(name + "2", {}, corner)});
+        o.labels = {"one", "other"};
+        make_comparison(o);
+        return Json::parse(std::ifstream(folder_.path() / "out/frames.json"));
+    };
+    const Json near = frames("near", {0, 0, 0});
+    EXPECT_EQ(near, frames("million", {1e6, 0, 0}));
+    EXPECT_EQ(near, frames("billion", {1e9, -1e9, 0}));
+}
+
 TEST_F(Compare, EqualRunsLookEqualInTheirPanels) {
     const fs::path a = write("a", {}), b = write("b", {});
     CompareOptions o = options({a, b});
@@ -132,6 +146,9 @@ TEST_F(Compare, RefusesWhatCannotBeCompared) {
     CompareOptions labels = options({a, b});
     labels.labels = {"one"};
     EXPECT_THROW(make_comparison(labels), std::invalid_argument);
+    labels.labels = {"one", "🔨"};
+    EXPECT_THROW(make_comparison(labels), std::invalid_argument);
+    EXPECT_FALSE(fs::exists(folder_.path() / "out")) << "before anything is drawn";
     RunSummary summary = read_summary(b);
     summary.events.separation.reset();
     write_summary(b, summary);

@@ -16,6 +16,7 @@ struct RecordedCantilever {
     int columns = 10, rows = 5;
     double end = 2, first_break = 1, separation = 1.5;  // (s)
     int states = 41;
+    Vec3 corner = Vec3::Zero();  ///< the lower left one of the body (m)
     int flies = -1;  // a particle that loses all its bonds at 0.5 s and flies off to the right
 
     int particle(int i, int j) const { return j * columns + i; }
@@ -24,7 +25,7 @@ struct RecordedCantilever {
         Topology t;
         t.body_names = {"plate"};
         for (int j = 0; j < rows; ++j)
-            for (int i = 0; i < columns; ++i) t.reference_position.push_back({i + 0.5, j + 0.5, 0});
+            for (int i = 0; i < columns; ++i) t.reference_position.push_back(corner + Vec3(i + 0.5, j + 0.5, 0));
         const int count = columns * rows;
         t.spacing.assign(count, 1.0);
         t.body.assign(count, 0);
@@ -50,7 +51,8 @@ struct RecordedCantilever {
     /// Infinity, or the time at which a bond between the first two columns breaks: the higher, the earlier.
     double broken_at(const Topology& t, int bond) const {
         if (t.first[bond] == flies || t.second[bond] == flies) return 0.5;
-        const Vec3 &a = t.reference_position[t.first[bond]], &b = t.reference_position[t.second[bond]];
+        const Vec3 a = t.reference_position[t.first[bond]] - corner,
+                   b = t.reference_position[t.second[bond]] - corner;
         if ((a.x() < 1) == (b.x() < 1)) return std::numeric_limits<double>::infinity();
         const double depth =
             (rows - 0.5 - std::max(a.y(), b.y())) / std::max(1, rows - 1);  // 0 at the top, 1 at the foot
@@ -62,7 +64,8 @@ struct RecordedCantilever {
         s.time = end * state / (states - 1);
         s.step = state;
         const double fall = s.time > separation ? 20 * (s.time - separation) * (s.time - separation) : 0;
-        for (const Vec3& X : t.reference_position) {
+        for (const Vec3& place : t.reference_position) {
+            const Vec3 X = place - corner;
             const double along = std::max(0.0, X.x() - 0.5) / columns,
                          load = std::min(s.time, separation) / separation;
             const double drop = 0.18 * columns * load * along * along, turn = 0.36 * load * along;

@@ -25,10 +25,39 @@ await inBrowser({ width: 1280, height: 900 }, async (page, complaints) => {
     expect(['x', 'y', 'width', 'height'].every(k => Math.abs(boxes[0][k] - boxes[1][k]) < 1), 'the cursor does not lie over its curve');
   }
 
+  // Until the film plays, the poster stands in its place, and curves and readout show the moment of it.
+  const film = await page.locator('video').boundingBox();
+  const top = { x: film.x, y: film.y, width: film.width, height: film.height / 2 };  // without the controls
+  const atFirst = await page.screenshot({ clip: top });
+  await page.addStyleTag({ content: 'video.aside { display: none } #film img.aside { display: block }' });
+  const aside = on => page.evaluate(on => document.querySelectorAll('#film > *').forEach(e => e.classList.toggle('aside', on)), on);
+  await aside(true);
+  const poster = await page.screenshot({ clip: top });
+  await aside(false);
+  const posterFrame = frameAt(run.poster), cursorAtFirst = await cursor(0), readoutAtFirst = await readout();
+  expect(posterFrame > 0, `the poster shows frame ${posterFrame}`);
+
+  // Mean difference of two pictures (levels): the browser scales a poster a little otherwise than a picture.
+  const difference = (a, b) => page.evaluate(async pictures => {
+    const pixels = await Promise.all(pictures.map(async png => {
+      const image = new Image();
+      image.src = 'data:image/png;base64,' + png;
+      await image.decode();
+      const pen = new OffscreenCanvas(image.width, image.height).getContext('2d');
+      pen.drawImage(image, 0, 0);
+      return pen.getImageData(0, 0, image.width, image.height).data;
+    }));
+    return pixels[0].reduce((sum, level, k) => sum + Math.abs(level - pixels[1][k]), 0) / pixels[0].length;
+  }, [a, b].map(png => png.toString('base64')));
+
   // One frame further, and back, and to the end.
   await page.locator('body').click({ position: { x: 5, y: 5 } });
   await page.keyboard.press('Home'); await settled();
   expect(await frame() === 0, `Home goes to frame ${await frame()}`);
+  expect(await cursor(0) < cursorAtFirst, 'the cursor does not start at the moment of the poster');
+  expect(await readout() !== readoutAtFirst, 'the readout does not start at the moment of the poster');
+  const fromPoster = await difference(atFirst, poster), fromStart = await difference(atFirst, await page.screenshot({ clip: top }));
+  expect(fromPoster < 0.1 * fromStart, `before it plays, the film is ${fromPoster} levels from the poster, ${fromStart} from its first frame`);
   for (const [key, expected] of [['ArrowRight', 1], ['ArrowRight', 2], ['ArrowLeft', 1], ['Shift+ArrowRight', 1 + run.fps], ['End', run.frames.length - 1]]) {
     await page.keyboard.press(key); await settled();
     expect(await frame() === Math.min(expected, run.frames.length - 1), `${key} goes to frame ${await frame()}, not ${expected}`);
