@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/run.hpp"
+#include "solve/run_to_end.hpp"
 #include "base/units.hpp"
 #include "physics/damage.hpp"
 #include "physics/simulation.hpp"
