@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/run.hpp"
+#include "solve/run_to_end.hpp"
 #include "base/units.hpp"
 #include "breaking/plane_fracture.hpp"
 #include "simulation/simulation.hpp"

@@ -16,12 +16,6 @@ double processor_seconds() {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-StageTimes drawing_stages() {
-    return StageTimes({"prepare", "wait for the writers", "wait for states", "read states", "interpolate",
-                       "place symbols", "upload", "draw calls", "rasterise", "read back", "overlay", "hash",
-                       "write PNG", "encode", "write poster", "finish"});
-}
-
 std::string profile_table(const std::string& title, const std::vector<StageTime>& stages, double wall) {
     std::size_t width = title.size();
     for (const StageTime& stage : stages) width = std::max(width, stage.name.size());

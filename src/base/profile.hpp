@@ -9,9 +9,6 @@ namespace hibi {
 /// Processor time of all threads of the program so far (s).
 double processor_seconds();
 
-/// The stages of a drawing, in the order in which a frame goes through them.
-StageTimes drawing_stages();
-
 /// One line per stage: its share of `wall` (s), how often it was entered, and milliseconds per call. Stages
 /// of different threads overlap.
 std::string profile_table(const std::string& title, const std::vector<StageTime>& stages, double wall);

@@ -6,61 +6,20 @@
 #include <chrono>
 #include <cstdlib>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <thread>
 
 #include "base/process.hpp"
 #include "base/progress.hpp"
-#include "image/png.hpp"
-#include "picture_tests/junit.hpp"
-#include "picture_tests/reference.hpp"
-#include "record/files.hpp"
-#include "scene/read.hpp"
+#include "picture_tests/compare_reference.hpp"
+#include "picture_tests/diff.hpp"
 
 namespace hibi {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-/// One moment beside its reference.
-struct MomentResult {
-    std::string moment;
-    Sameness sameness = Sameness::identical;
-    PixelDifference pixels{};
-    std::string complaint{};  ///< why it fails; empty: it passes
-    fs::path page{};          ///< of a failure; empty: none
-};
-
-struct SceneResult {
-    fs::path file;
-    std::string name;  ///< of its folders
-    Overrides overrides{};
-    Scene scene{};
-    Tolerance pixels{};
-    RunTolerance run{};
-    std::optional<Reference> reference{};
-    std::string error{};      ///< the run failed, and why
-    std::string complaint{};  ///< why it fails beyond single moments
-    std::string physics{};    ///< what changed; empty: nothing
-    bool exact = false;
-    std::vector<MomentResult> moments{};
-    std::vector<std::string> updates{};  ///< what was written
-    double seconds = 0;
-
-    bool passes() const {
-        return error.empty() && complaint.empty() && physics.empty() &&
-               std::ranges::all_of(moments, [](const MomentResult& m) { return m.complaint.empty(); });
-    }
-    Sameness sameness() const {
-        Sameness worst = Sameness::identical;
-        for (const MomentResult& m : moments) worst = std::max(worst, m.sameness);
-        return worst;
-    }
-};
 
 std::vector<fs::path> scene_files(const std::vector<fs::path>& named) {
     std::vector<fs::path> files;
@@ -134,216 +93,6 @@ void run_scene(SceneResult& r, const fs::path& folder, int threads) {
                                 : end.error_output.substr(0, end.error_output.find_last_not_of('\n') + 1);
 }
 
-void compare_moment(const SceneResult& r, const DrawnTest& drawn, const ReferenceFrame& frame,
-                    MomentResult& m, const TestOptions& options) {
-    const auto& frames = r.reference->frames;
-    const auto expected = std::ranges::find(frames, frame.moment, &ReferenceFrame::moment);
-    if (expected == frames.end()) {
-        m.complaint = "has no reference";
-        return;
-    }
-    // The file decides, not the list: a damaged one must not pass.
-    const fs::path file = reference_folder(r.file) / expected->file;
-    if (!fs::exists(file)) {
-        m.complaint = "has no reference: " + file.string() + " is missing";
-        return;
-    }
-    m.sameness = Sameness::different;
-    Image picture;
-    try {
-        picture = picture_to_compare(file);
-    } catch (const std::invalid_argument& error) {
-        m.complaint = error.what();
-        return;
-    }
-    if (pixel_hash(picture) != expected->sha256) {
-        m.complaint = file.string() + " is not the picture that references.json names";
-        return;
-    }
-    const Image& actual = drawn.image_of(frame.file);
-    try {
-        m.pixels = difference(picture, actual);
-    } catch (const std::invalid_argument& error) {
-        m.complaint = error.what();
-        return;
-    }
-    m.sameness = judge(m.pixels, r.pixels);
-    if (m.sameness == Sameness::identical) return;
-    if (r.exact && m.sameness == Sameness::tolerated)
-        m.complaint = fmt::format("not identical (worst tile {:.2g}), on the renderer of the references",
-                                  m.pixels.tile);
-    else if (m.sameness == Sameness::different)
-        m.complaint = beyond(m.pixels, r.pixels);
-    if (m.complaint.empty()) return;
-    const fs::path folder = options.output / r.name / frame.moment;
-    fs::create_directories(folder);
-    write_difference_pictures(folder, picture, actual, m.pixels);
-    DifferencePage page{.title = fmt::format("{}: {}", r.name, frame.moment),
-                        .verdict = (r.physics.empty() ? "drawing changed, physics the same" : r.physics) +
-                                   " (" + m.complaint + ")",
-                        .differs = true,
-                        .expected_name = file.string(),
-                        .actual_name = "now",
-                        .pictures = page_pictures("", picture, actual, m.pixels),
-                        .tables = {pixel_table(m.pixels, r.pixels)}};
-    page.tables.push_back({"Renderer and processor",
-                           "",
-                           {{"references", r.reference->key.renderer + ", " + r.reference->key.cpu, "", {}},
-                            {"now", drawn.reference.key.renderer + ", " + drawn.reference.key.cpu, "", {}}}});
-    m.page = folder / "difference.html";
-    write_file(m.page, difference_page(page));
-}
-
-void compare(SceneResult& r, const DrawnTest& drawn, const TestOptions& options) {
-    if (!r.reference) {
-        r.complaint = "has no references";
-        return;
-    }
-    r.exact = r.reference->key == drawn.reference.key;
-    r.physics = physics_change(*r.reference, drawn.reference, r.run);
-    for (const ReferenceFrame& frame : drawn.reference.frames) {
-        MomentResult m{.moment = frame.moment};
-        compare_moment(r, drawn, frame, m, options);
-        r.moments.push_back(std::move(m));
-    }
-    for (const ReferenceFrame& frame : r.reference->frames)
-        if (std::ranges::find(drawn.reference.frames, frame.moment, &ReferenceFrame::moment) ==
-            drawn.reference.frames.end())
-            r.moments.push_back(
-                {.moment = frame.moment,
-                 .sameness = Sameness::different,
-                 .complaint = "has a reference, but did not happen or is not in [test] frames"});
-}
-
-/// Writes a new picture; an old one that differs stays beside it.
-void renew_picture(const fs::path& file, const Image& image, std::vector<std::string>& updates) {
-    bool same = false, there = fs::exists(file);
-    if (there) {
-        try {
-            same = pixel_hash(read_png(file)) == pixel_hash(image);
-        } catch (const std::runtime_error&) {
-            // A damaged one is written over like any other.
-        }
-    }
-    if (same) return;
-    if (there) fs::rename(file, fs::path(file).replace_extension(".old.png"));
-    write_png(file, image, {.small = true});
-    updates.push_back((there ? "changed " : "new ") + file.string());
-}
-
-void update(SceneResult& r, const DrawnTest& drawn, Update what) {
-    const auto lacks_reference = [](const MomentResult& m) {
-        return m.complaint.starts_with("has no reference");
-    };
-    const auto missing = [&] { return !r.reference || std::ranges::any_of(r.moments, lacks_reference); };
-    if (what == Update::changed ? r.passes() : what == Update::missing && !missing()) return;
-    const fs::path folder = reference_folder(r.file);
-    Reference renewed = drawn.reference;
-    if (what == Update::missing && r.reference) {
-        // What is there stays as it is, and is judged as before.
-        renewed = *r.reference;
-        for (const ReferenceFrame& frame : drawn.reference.frames) {
-            const auto known = std::ranges::find(renewed.frames, frame.moment, &ReferenceFrame::moment);
-            if (known == renewed.frames.end())
-                renewed.frames.push_back(frame);
-            else if (!fs::exists(folder / known->file))
-                *known = frame;
-        }
-    }
-    fs::create_directories(folder);
-    for (std::size_t k = 0; k < drawn.images.size(); ++k) {
-        const ReferenceFrame& frame = drawn.reference.frames[k];
-        const bool kept = what == Update::missing && fs::exists(folder / frame.file);
-        if (drawn.images[k].width > 0 && !kept)
-            renew_picture(folder / frame.file, drawn.images[k], r.updates);
-    }
-    if (what != Update::missing)
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            const std::string name = entry.path().filename().string();
-            if (!name.ends_with(".png") || name.ends_with(".old.png")) continue;
-            if (std::ranges::find(renewed.frames, name, &ReferenceFrame::file) == renewed.frames.end()) {
-                fs::rename(entry.path(), fs::path(entry.path()).replace_extension(".old.png"));
-                r.updates.push_back("no longer used " + entry.path().string());
-            }
-        }
-    std::ranges::stable_sort(renewed.frames, {}, &ReferenceFrame::time);
-    if (r.updates.empty() && !r.physics.empty()) r.updates.push_back("numbers: " + r.physics);
-    write_reference(folder, renewed);
-    r.updates.push_back("wrote " + (folder / "references.json").string());
-    r.complaint.clear();
-    if (what == Update::missing) {
-        std::erase_if(r.moments, lacks_reference);
-        return;
-    }
-    r.physics.clear();
-    r.moments.clear();
-}
-
-std::string line_of(const SceneResult& r) {
-    std::string text = fmt::format("{:<4} {:<24} ", r.passes() ? "ok" : "FAIL", r.name);
-    if (!r.error.empty()) return text + r.error;
-    std::string updates;
-    for (const std::string& update : r.updates) updates += "\n       " + update;
-    if (r.passes() && !updates.empty()) return text + "updated" + updates;
-    if (!r.complaint.empty())
-        return text + fmt::format(
-                          "{}; look at the pictures that hibi test --update missing {} writes, and commit "
-                          "them",
-                          r.complaint, r.file.string());
-    const char* how =
-        r.exact ? "exact" : "tolerant, since the references are from another renderer or processor";
-    if (r.passes())
-        return text + fmt::format("{} pictures {} ({}; {:.1f} s)", r.moments.size(), to_string(r.sameness()),
-                                  how, r.seconds);
-    text += r.physics.empty() ? "drawing changed, physics the same" : r.physics;
-    text += fmt::format(" ({})", how);
-    for (const MomentResult& m : r.moments) {
-        if (m.complaint.empty()) continue;
-        text += fmt::format("\n       {}: {}", m.moment, m.complaint);
-        if (!m.page.empty()) text += "\n         " + m.page.string();
-    }
-    return text + updates;
-}
-
-std::string to_json(const std::vector<SceneResult>& results) {
-    Json list = Json::array();
-    for (const SceneResult& r : results) {
-        Json moments = Json::array();
-        for (const MomentResult& m : r.moments)
-            moments.push_back({{"moment", m.moment},
-                               {"sameness", to_string(m.sameness)},
-                               {"complaint", m.complaint},
-                               {"tile", m.pixels.tile},
-                               {"pixels", m.pixels.pixels},
-                               {"mean", m.pixels.mean},
-                               {"rmse", m.pixels.rmse},
-                               {"ssim", m.pixels.ssim},
-                               {"page", m.page.string()}});
-        list.push_back({{"scene", r.file.string()},
-                        {"pass", r.passes()},
-                        {"verdict", !r.error.empty()       ? r.error
-                                    : !r.complaint.empty() ? r.complaint
-                                    : !r.physics.empty()   ? r.physics
-                                    : r.passes()           ? "same"
-                                                           : "drawing changed, physics the same"},
-                        {"exact", r.exact},
-                        {"seconds", r.seconds},
-                        {"updates", r.updates},
-                        {"frames", moments}});
-    }
-    return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::vector<JunitCase> junit_cases(const std::vector<SceneResult>& results) {
-    std::vector<JunitCase> cases;
-    for (const SceneResult& r : results) {
-        const std::string failure = !r.complaint.empty() ? r.complaint : r.physics;
-        cases.push_back({r.name, "physics", r.seconds, failure, r.error});
-        for (const MomentResult& m : r.moments) cases.push_back({r.name, m.moment, 0, m.complaint, ""});
-    }
-    return cases;
-}
-
 /// What an earlier test left of this scene.
 void clear(const fs::path& folder) {
     if (!fs::exists(folder)) return;
@@ -362,8 +111,8 @@ void test_scene(SceneResult& r, const TestOptions& options, int threads, std::mu
         const RunReader run(folder / "run");
         const std::lock_guard lock(drawing);
         const DrawnTest drawn = draw_test(r.scene, run, options.renderer);
-        compare(r, drawn, options);
-        if (options.update != Update::none) update(r, drawn, options.update);
+        compare_with_reference(r, drawn, options.output);
+        if (options.update != Update::none) update_reference(r, drawn, options.update);
     }
     // The run of a failure stays, to be looked at.
     if (r.passes()) {
@@ -375,7 +124,7 @@ void test_scene(SceneResult& r, const TestOptions& options, int threads, std::mu
 
 }  // namespace
 
-int test_command(const TestOptions& options) {
+std::vector<SceneResult> test_scenes(const TestOptions& options) {
     const char* ci = std::getenv("CI");
     if (options.update != Update::none && ci && ci == std::string("true"))
         throw std::invalid_argument(
@@ -403,16 +152,7 @@ int test_command(const TestOptions& options) {
             progress.at(static_cast<double>(done) / count, done);
         });
     if (options.junit) write_junit(*options.junit, "hibi test", junit_cases(results));
-    if (options.json) {
-        fmt::print("{}", to_json(results));
-    } else {
-        for (const SceneResult& r : results) fmt::print("{}\n", line_of(r));
-        const auto passed = std::ranges::count_if(results, &SceneResult::passes);
-        fmt::print("{} of {} scenes pass\n", passed, count);
-    }
-    const auto failed = [](const SceneResult& r) { return !r.error.empty(); };
-    if (std::ranges::any_of(results, failed)) return 1;
-    return std::ranges::all_of(results, &SceneResult::passes) ? 0 : 3;
+    return results;
 }
 
 }  // namespace hibi

@@ -1,20 +1,13 @@
 #pragma once
 #include <filesystem>
-#include <string>
+#include <optional>
 #include <vector>
 
-#include "picture_tests/diff.hpp"
+#include "picture_tests/test_results.hpp"
+#include "picture_tests/update_reference.hpp"
 #include "render/renderer.hpp"
 
 namespace hibi {
-
-/// Which references `hibi test` writes.
-enum class Update {
-    none,
-    missing,  ///< those that are not there
-    changed,  ///< those, and those of scenes that do not pass
-    all
-};
 
 struct TestOptions {
     std::vector<std::filesystem::path> scenes;  ///< scene files, or folders of them
@@ -28,11 +21,10 @@ struct TestOptions {
     RendererOptions renderer{};
 };
 
-/// `hibi test`: runs scenes, draws the moments of their [test] blocks and compares them with the references
-/// beside the scenes, exactly where the renderer and the processor are those of the references, else within
-/// the tolerances. Prints a line per scene. Returns 0 where all pass, 3 where one differs or has no
-/// reference, 1 where a run failed. Throws std::invalid_argument (and changes nothing) for a scene or
-/// references that cannot be read, and for an update where CI=true is in the environment.
-int test_command(const TestOptions& options);
+/// Runs scenes, draws the moments of their [test] blocks and compares them with the references beside the
+/// scenes, exactly where the renderer and the processor are those of the references, else within the
+/// tolerances. Writes JUnit XML where that is asked for. Throws std::invalid_argument (and changes nothing)
+/// for a scene or references that cannot be read, and for an update where CI=true is in the environment.
+std::vector<SceneResult> test_scenes(const TestOptions& options);
 
 }  // namespace hibi

@@ -36,6 +36,12 @@ std::vector<std::string> films(const Scene& scene, const DrawOptions& options) {
     return options.formats.empty() ? scene.movie.formats : options.formats;
 }
 
+StageTimes drawing_stages() {
+    return StageTimes({"prepare", "wait for the writers", "wait for states", "read states", "interpolate",
+                       "place symbols", "upload", "draw calls", "rasterise", "read back", "overlay", "hash",
+                       "write PNG", "encode", "write poster", "finish"});
+}
+
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     const double processor_begin = processor_seconds();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stage_time.hpp"
 #include "record/run_folder.hpp"
 #include "render/renderer.hpp"
 #include "scene/read.hpp"
@@ -34,17 +35,14 @@ struct DrawResult {
 /// drawn. Errors (std::runtime_error) name the file; what was finished by then stays.
 DrawResult draw_run(const Scene& scene, const std::filesystem::path& folder, const DrawOptions& options);
 
+/// The stages of a drawing, in the order in which a frame goes through them.
+StageTimes drawing_stages();
+
 /// The formats that films are made in: none, those of the options, or those of the scene.
 std::vector<std::string> films(const Scene& scene, const DrawOptions& options);
 
 /// Name of the film in a folder, the most usual format first; empty where there is none.
 std::string film_in(const std::filesystem::path& folder);
-
-struct PreviewOptions {
-    std::filesystem::path scene, png = "setup.png";
-    Overrides overrides{};
-    RendererOptions renderer{};
-};
 
 /// The body as it stands before the run, with supports, loads at full size and notches. `command` goes into
 /// the picture.

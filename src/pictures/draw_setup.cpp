@@ -30,8 +30,8 @@ void draw_setup(const BuiltScene& setup, const std::filesystem::path& png, const
     if (view.window) view.window = counted_from(origin, *view.window);
     view.map = "viridis";  // stands for the body's number here, not for a field
     view.show = {"title", "scale_bar", "supports", "loads"};
-    const std::vector<Mark> marks =
-        find_marks(topology, scene.view.shows("supports"), scene.view.shows("loads"));
+    const std::vector<SymbolAnchor> anchors =
+        find_symbol_anchors(topology, scene.view.shows("supports"), scene.view.shows("loads"));
     const Overlay overlay(view, {.title = scene.title, .subtitle = describe(scene, topology)});
     Renderer renderer(view, topology, options);
 
@@ -53,8 +53,8 @@ void draw_setup(const BuiltScene& setup, const std::filesystem::path& png, const
     picture.y.assign(y.begin(), y.end());
     picture.intact = drawn_bonds(topology, view.bonds);
     std::vector<Reserved> reserved;
-    for (const Mark& mark : marks)
-        for (const Reserved& r : reserve(mark, x, y, 1, view)) reserved.push_back(r);
+    for (const SymbolAnchor& anchor : anchors)
+        for (const Reserved& r : reserve(anchor, x, y, 1, view)) reserved.push_back(r);
     if (const auto& w = view.window)
         picture.camera = Camera2::fit((*w)[0], (*w)[1], (*w)[2], (*w)[3], overlay.plot());
     else
@@ -63,7 +63,8 @@ void draw_setup(const BuiltScene& setup, const std::filesystem::path& png, const
     Image image(view.width, view.height);
     OverlayFrame over{.pixels_per_metre = picture.camera.scale, .symbols = {}};
     const double unit = symbol_unit(view);
-    for (const Mark& mark : marks) over.symbols.push_back(place_mark(mark, x, y, picture.camera, 1, unit));
+    for (const SymbolAnchor& anchor : anchors)
+        over.symbols.push_back(place_symbol(anchor, x, y, picture.camera, 1, unit));
     for (const NotchLine& notch : find_notches(topology))
         over.symbols.push_back(place_notch(notch, topology, x, y, picture.camera));
     draw_on_background(view, image, [&](const Rgb& background, Image& on) {

@@ -89,11 +89,12 @@ void draw_figures(const Scene& scene, const RunReader& run, const RendererOption
     }
 }
 
-int figures_command(const FiguresOptions& options) {
+std::vector<fs::path> draw_figures_again(const FiguresOptions& options) {
     const Scene scene = read_recorded_scene(options.folder);
     const RunReader run(options.folder);
     const fs::path output = options.output.value_or(options.folder / "figures");
     fs::create_directories(output);
+    std::vector<fs::path> files;
     const std::vector<std::string> own{scene.view.theme};
     for (const std::string& theme : options.themes.empty() ? own : options.themes)
         for (const double width : options.widths) {
@@ -104,12 +105,12 @@ int figures_command(const FiguresOptions& options) {
                 output.string()};
             for (const fs::path& file :
                  write_figures(scene, run, style, output, suffix_of(style), options.renderer, command))
-                fmt::print("{}\n", file.string());
+                files.push_back(file);
         }
-    return 0;
+    return files;
 }
 
-int strip_command(const StripOptions& options) {
+fs::path draw_strip(const StripOptions& options) {
     const Scene scene = read_recorded_scene(options.folder);
     const RunReader run(options.folder);
     const FigureStyle style{.theme = options.theme.empty() ? scene.view.theme : options.theme,
@@ -128,8 +129,7 @@ int strip_command(const StripOptions& options) {
               {.text = to_texts(followed_by(provenance_of(run.summary()), command)),
                .small = true,
                .dpi = style.dpi});
-    fmt::print("{}\n", file.string());
-    return 0;
+    return file;
 }
 
 }  // namespace hibi

@@ -29,8 +29,8 @@ struct FiguresOptions {
     std::optional<std::filesystem::path> output{};  ///< folder; absent: figures/ of the run
     RendererOptions renderer{};
 };
-/// `hibi figures`: the figures in other themes and widths. Prints their names; returns the exit status.
-int figures_command(const FiguresOptions& options);
+/// The figures in other themes and widths. Returns the files written.
+std::vector<std::filesystem::path> draw_figures_again(const FiguresOptions& options);
 
 struct StripOptions {
     std::filesystem::path folder;                   ///< of the run
@@ -40,7 +40,7 @@ struct StripOptions {
     int columns = 0;  ///< pictures in a row; 0: as many as stay readable
     RendererOptions renderer{};
 };
-/// `hibi strip`: the key frames once more, in one picture. Returns the exit status.
-int strip_command(const StripOptions& options);
+/// The key frames once more, in one picture. Returns its file.
+std::filesystem::path draw_strip(const StripOptions& options);
 
 }  // namespace hibi

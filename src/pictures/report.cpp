@@ -14,7 +14,6 @@
 #include "record/provenance.hpp"
 #include "report/caption.hpp"
 #include "report/page.hpp"
-#include "scene/read.hpp"
 
 namespace hibi {
 
@@ -96,12 +95,6 @@ void write_report(const Scene& scene, const RunReader& run, const RendererOption
     write_file(folder / "snippets/figure.tex", latex_snippet(caption, label, film_in(folder)));
     write_file(folder / "snippets/figure.qmd", quarto_snippet(caption, label, film_in(folder)));
     write_file(folder / "snippets/figure.md", markdown_snippet(caption, film_in(folder)));
-}
-
-int report_command(const ReportOptions& options) {
-    write_report(read_recorded_scene(options.folder), RunReader(options.folder), options.renderer);
-    fmt::print("{}\n", (options.folder / "report.html").string());
-    return 0;
 }
 
 }  // namespace hibi

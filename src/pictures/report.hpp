@@ -11,11 +11,4 @@ namespace hibi {
 /// one.
 void write_report(const Scene& scene, const RunReader& run, const RendererOptions& renderer);
 
-struct ReportOptions {
-    std::filesystem::path folder;  ///< of the run
-    RendererOptions renderer{};
-};
-/// `hibi report`: writes them again. Returns the exit status.
-int report_command(const ReportOptions& options);
-
 }  // namespace hibi

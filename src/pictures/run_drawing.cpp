@@ -28,7 +28,7 @@ double at_time(const History& history, double time, Value&& value) {
 }
 
 /// Driven particles: what they are made to do grows steadily, while their reaction trembles.
-double mark_quantity(const Topology& topology, int load, const HistoryRow& row) {
+double load_quantity(const Topology& topology, int load, const HistoryRow& row) {
     const bool by_force = topology.loads[load].kind == "force" || topology.loads[load].kind == "pressure";
     const std::vector<double>& values = by_force ? row.loads : row.displacements;
     return load < static_cast<int>(values.size()) ? values[load] : 0;
@@ -81,14 +81,14 @@ RunDrawing::RunDrawing(const Scene& scene, const RunReader& run, DrawingStyle st
       source_(run, style_.view, style_.range, style_.origin, options.profile),
       overlay_(style_.view, content(scene)),
       renderer_(style_.view, topology_, options),
-      marks_(find_marks(topology_, style_.view.shows("supports"), style_.view.shows("loads"))),
+      anchors_(find_symbol_anchors(topology_, style_.view.shows("supports"), style_.view.shows("loads"))),
       notches_(find_notches(topology_)),
       unit_(symbol_unit(style_.view)) {
     for (int k = 0; k < static_cast<int>(run.topology().loads.size()); ++k) {
         double largest = 0;
         for (const HistoryRow& row : run.history().rows)
             if (row.time <= until_)
-                largest = std::max(largest, std::abs(mark_quantity(run.topology(), k, row)));
+                largest = std::max(largest, std::abs(load_quantity(run.topology(), k, row)));
         largest_.push_back(largest);
     }
     camera_ = camera();
@@ -140,9 +140,9 @@ int RunDrawing::draw(double time, double film_time, OverlayFrame over, Image& im
 
 void RunDrawing::place_symbols(double time, OverlayFrame& over) const {
     const TimedStage timed(profile_, "place symbols");
-    for (const Mark& mark : marks_) {
-        const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
-        over.symbols.push_back(place_mark(mark, source_.x(), source_.y(), camera_, size, unit_));
+    for (const SymbolAnchor& anchor : anchors_) {
+        const double size = anchor.load < 0 ? 1 : load_size(anchor.load, time);
+        over.symbols.push_back(place_symbol(anchor, source_.x(), source_.y(), camera_, size, unit_));
     }
     for (const NotchLine& notch : notches_)
         over.symbols.push_back(place_notch(notch, topology_, source_.x(), source_.y(), camera_));
@@ -158,20 +158,20 @@ Camera2 RunDrawing::camera() {
     }
     std::vector<Reserved> reserved;
     const int last = last_counting_state(run_);
-    const std::vector<double>& loose = loose_since(run_);
-    std::vector<double> x(loose.size()), y(loose.size());  // of the marks' particles
+    const std::vector<double>& loose = detached_at(run_);
+    std::vector<double> x(loose.size()), y(loose.size());  // of the anchors' particles
     constexpr int samples = 16;
-    for (int k = 0; k <= samples && !marks_.empty(); ++k) {
+    for (int k = 0; k <= samples && !anchors_.empty(); ++k) {
         const int state = last * k / samples;
         const double time = run_.states()[state].time;
-        for (const auto& [i, u] : displaced_marks(run_, state)) {
+        for (const auto& [i, u] : anchor_displacements(run_, state)) {
             x[i] = topology_.reference_position[i].x() + view.magnify * u.x();
             y[i] = topology_.reference_position[i].y() + view.magnify * u.y();
         }
-        for (const Mark& mark : marks_) {
-            if (std::ranges::any_of(mark.particles, [&](int i) { return loose[i] <= time; })) continue;
-            const double size = mark.load < 0 ? 1 : load_size(mark.load, time);
-            for (const Reserved& r : reserve(mark, x, y, size, view)) reserved.push_back(r);
+        for (const SymbolAnchor& anchor : anchors_) {
+            if (std::ranges::any_of(anchor.particles, [&](int i) { return loose[i] <= time; })) continue;
+            const double size = anchor.load < 0 ? 1 : load_size(anchor.load, time);
+            for (const Reserved& r : reserve(anchor, x, y, size, view)) reserved.push_back(r);
         }
     }
     return camera_for(style_.window.value_or(body_window(run_, view, style_.origin)), reserved, plot);
@@ -179,7 +179,7 @@ Camera2 RunDrawing::camera() {
 
 double RunDrawing::load_size(int load, double time) const {
     if (largest_[load] <= 0) return 0;
-    const auto quantity = [&](const HistoryRow& row) { return mark_quantity(run_.topology(), load, row); };
+    const auto quantity = [&](const HistoryRow& row) { return load_quantity(run_.topology(), load, row); };
     return at_time(run_.history(), time, quantity) / largest_[load];
 }
 

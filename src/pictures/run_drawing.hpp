@@ -62,7 +62,7 @@ class RunDrawing {
     PictureSource source_;
     Overlay overlay_;
     Renderer renderer_;
-    std::vector<Mark> marks_;
+    std::vector<SymbolAnchor> anchors_;
     std::vector<NotchLine> notches_;
     Camera2 camera_{};
     double unit_;                  ///< Layout::unit

@@ -72,7 +72,7 @@ struct Pieces {
     }
 };
 
-std::vector<double> find_loose(const RunReader& run) {
+std::vector<double> find_detached(const RunReader& run) {
     constexpr double never = std::numeric_limits<double>::infinity();
     const Topology& topology = run.topology();
     const int count = static_cast<int>(topology.spacing.size());
@@ -113,7 +113,7 @@ std::array<double, 4> find_window(const RunReader& run, const View& view, const 
     constexpr int most_read = 48;
     const int last = last_counting_state(run);
     const double end = run.states()[last].time;
-    const std::vector<double>& loose = loose_since(run);
+    const std::vector<double>& loose = detached_at(run);
     const bool extents_do =
         view.magnify == 1 && std::ranges::none_of(loose, [&](double since) { return since <= end; });
     const int stride = extents_do ? 1 : std::max(1, last / most_read);
@@ -144,7 +144,7 @@ std::array<double, 4> find_window(const RunReader& run, const View& view, const 
 }
 
 /// With repetitions where a particle is both held and loaded.
-std::vector<int> marked_particles(const Topology& topology) {
+std::vector<int> held_or_loaded(const Topology& topology) {
     std::vector<int> marked;
     for (const Support& s : topology.supports)
         marked.insert(marked.end(), s.particles.begin(), s.particles.end());
@@ -155,8 +155,8 @@ std::vector<int> marked_particles(const Topology& topology) {
 
 }  // namespace
 
-const std::vector<double>& loose_since(const RunReader& run) {
-    return run.once<std::vector<double>>("loose_since", [&] { return find_loose(run); });
+const std::vector<double>& detached_at(const RunReader& run) {
+    return run.once<std::vector<double>>("detached_at", [&] { return find_detached(run); });
 }
 
 std::array<double, 4> body_window(const RunReader& run, const View& view, const Vec3& origin) {
@@ -165,12 +165,12 @@ std::array<double, 4> body_window(const RunReader& run, const View& view, const 
         [&] { return find_window(run, view, origin); });
 }
 
-const std::vector<std::pair<int, Vec3>>& displaced_marks(const RunReader& run, int state) {
+const std::vector<std::pair<int, Vec3>>& anchor_displacements(const RunReader& run, int state) {
     using Places = std::vector<std::pair<int, Vec3>>;
-    return run.once<Places>(fmt::format("displaced_marks {}", state), [&] {
+    return run.once<Places>(fmt::format("anchor_displacements {}", state), [&] {
         const std::vector<Vec3> u = run.read(state, {"displacement"}).displacement;
         Places places;
-        for (const int i : marked_particles(run.topology())) places.emplace_back(i, u[i]);
+        for (const int i : held_or_loaded(run.topology())) places.emplace_back(i, u[i]);
         return places;
     });
 }

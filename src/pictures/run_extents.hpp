@@ -14,9 +14,9 @@ int last_counting_state(const RunReader& run);
 
 /// What follows is worked out once per reader of a run.
 
-/// When each particle comes loose: from then on it belongs to a piece of less than a fiftieth of all
+/// When each particle becomes detached: from then on it belongs to a piece of less than a fiftieth of all
 /// particles (s); infinite: never, or from the start.
-const std::vector<double>& loose_since(const RunReader& run);
+const std::vector<double>& detached_at(const RunReader& run);
 
 /// Box around the particles in all states that count (m), discs included, but for those that have come loose:
 /// x0, y0, x1, y1, counted from the origin (m).
@@ -24,7 +24,7 @@ std::array<double, 4> body_window(const RunReader& run, const View& view,
                                   const Vec3& origin = Vec3::Zero());
 
 /// Displacements (m) in a state of the particles that supports and loads hold, by particle.
-const std::vector<std::pair<int, Vec3>>& displaced_marks(const RunReader& run, int state);
+const std::vector<std::pair<int, Vec3>>& anchor_displacements(const RunReader& run, int state);
 
 /// Range of the coloured field over all states that count, from the finite values, ends rounded outward.
 /// Holds zero; symmetric about it where the map has its middle there. Never empty.

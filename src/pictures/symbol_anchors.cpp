@@ -97,8 +97,8 @@ std::array<double, 2> flat(const Vec3& v) { return {v.x(), v.y()}; }
 
 }  // namespace
 
-std::vector<Mark> find_marks(const Topology& topology, bool supports, bool loads) {
-    std::vector<Mark> marks;
+std::vector<SymbolAnchor> find_symbol_anchors(const Topology& topology, bool supports, bool loads) {
+    std::vector<SymbolAnchor> anchors;
     const auto neighbours = nearest_directions(topology);
     const auto radius = [&](const std::vector<int>& line) { return topology.spacing[line.front()] / 2; };
     for (const Support& support : topology.supports) {
@@ -106,10 +106,10 @@ std::vector<Mark> find_marks(const Topology& topology, bool supports, bool loads
         const Vec3 out = away_from_body(support.particles, neighbours, support.axes);
         const bool both = support.axes[0] && support.axes[1];
         for (const std::vector<int>& line : stretches(topology, foremost(topology, support.particles, out)))
-            marks.push_back({.kind = both ? Symbol::Kind::clamp : Symbol::Kind::roller,
-                             .particles = line,
-                             .radius = radius(line),
-                             .towards = flat(out)});
+            anchors.push_back({.kind = both ? Symbol::Kind::clamp : Symbol::Kind::roller,
+                               .particles = line,
+                               .radius = radius(line),
+                               .towards = flat(out)});
     }
     for (int k = 0; k < static_cast<int>(topology.loads.size()); ++k) {
         const LoadMark& load = topology.loads[k];
@@ -120,34 +120,35 @@ std::vector<Mark> find_marks(const Topology& topology, bool supports, bool loads
             covered(line, neighbours, -load.direction) && !covered(behind, neighbours, load.direction);
         if (pulls) line = behind;
         for (const std::vector<int>& part : stretches(topology, line))
-            marks.push_back({.kind = Symbol::Kind::arrow,
-                             .particles = part,
-                             .radius = radius(part),
-                             .towards = flat(load.direction),
-                             .pulls = pulls,
-                             .load = k});
+            anchors.push_back({.kind = Symbol::Kind::arrow,
+                               .particles = part,
+                               .radius = radius(part),
+                               .towards = flat(load.direction),
+                               .pulls = pulls,
+                               .load = k});
     }
-    return marks;
+    return anchors;
 }
 
-Symbol place_mark(const Mark& mark, std::span<const double> x, std::span<const double> y,
-                  const Camera2& camera, double size, double unit) {
+Symbol place_symbol(const SymbolAnchor& anchor, std::span<const double> x, std::span<const double> y,
+                    const Camera2& camera, double size, double unit) {
     Symbol symbol;
-    symbol.kind = mark.kind;
-    symbol.radius = mark.radius * camera.scale;
-    for (const int i : mark.particles) symbol.points.push_back({camera.pixel_x(x[i]), camera.pixel_y(y[i])});
-    const std::array<double, 2> towards = {mark.towards[0], -mark.towards[1]};
-    if (mark.kind != Symbol::Kind::arrow) {
+    symbol.kind = anchor.kind;
+    symbol.radius = anchor.radius * camera.scale;
+    for (const int i : anchor.particles)
+        symbol.points.push_back({camera.pixel_x(x[i]), camera.pixel_y(y[i])});
+    const std::array<double, 2> towards = {anchor.towards[0], -anchor.towards[1]};
+    if (anchor.kind != Symbol::Kind::arrow) {
         symbol.outward = towards;
         return symbol;
     }
     const double sign = size < 0 ? -1 : 1;
     symbol.direction = {sign * towards[0], sign * towards[1]};
-    symbol.pulls = mark.pulls != (size < 0);
+    symbol.pulls = anchor.pulls != (size < 0);
     symbol.size = std::abs(size);
     const int last = static_cast<int>(symbol.points.size()) - 1;
     const double length =
-        2 * mark.radius * camera.scale * last;  // in the unloaded body: the number never changes
+        2 * anchor.radius * camera.scale * last;  // in the unloaded body: the number never changes
     const int gaps = std::min(last, std::max(1, static_cast<int>(length / (arrow_distance * unit))));
     if (last > 0) {
         std::vector<std::array<double, 2>> chosen;  // evenly spread, also between particles
@@ -162,17 +163,17 @@ Symbol place_mark(const Mark& mark, std::span<const double> x, std::span<const d
     return symbol;
 }
 
-std::vector<Reserved> reserve(const Mark& mark, std::span<const double> x, std::span<const double> y,
-                              double size, const View& view) {
-    const bool arrow = mark.kind == Symbol::Kind::arrow;
-    const double reach = symbol_reach(mark.kind, view) * (arrow ? std::min(std::abs(size), 1.0) : 1);
+std::vector<Reserved> reserve(const SymbolAnchor& anchor, std::span<const double> x,
+                              std::span<const double> y, double size, const View& view) {
+    const bool arrow = anchor.kind == Symbol::Kind::arrow;
+    const double reach = symbol_reach(anchor.kind, view) * (arrow ? std::min(std::abs(size), 1.0) : 1);
     const double sign =
-        arrow && !mark.pulls ? -1 : 1;  // a load that turns round stays on its side of the body
-    const double dx = sign * mark.towards[0] * reach, dy = sign * mark.towards[1] * reach;
+        arrow && !anchor.pulls ? -1 : 1;  // a load that turns round stays on its side of the body
+    const double dx = sign * anchor.towards[0] * reach, dy = sign * anchor.towards[1] * reach;
     std::vector<Reserved> reserved;
-    for (const int i : mark.particles)
-        reserved.push_back({x[i] + std::copysign(mark.radius, dx),
-                            y[i] + std::copysign(mark.radius, dy),
+    for (const int i : anchor.particles)
+        reserved.push_back({x[i] + std::copysign(anchor.radius, dx),
+                            y[i] + std::copysign(anchor.radius, dy),
                             {std::max(0.0, -dx), std::max(0.0, dy), std::max(0.0, dx), std::max(0.0, -dy)}});
     return reserved;
 }

@@ -9,7 +9,7 @@
 namespace hibi {
 
 /// A support or load bound to the particles that carry its symbol, found once in the unloaded body.
-struct Mark {
+struct SymbolAnchor {
     Symbol::Kind kind = Symbol::Kind::clamp;
     std::vector<int> particles;            ///< along the outline, in order
     double radius = 0;                     ///< of a particle (m)
@@ -18,9 +18,9 @@ struct Mark {
     int load = -1;                         ///< index into Topology::loads
 };
 
-/// The outline of held particles away from the body (one mark per unbroken stretch), and of loaded particles
-/// where the arrows come from, or where they go to if the body itself lies in their way.
-std::vector<Mark> find_marks(const Topology& topology, bool supports, bool loads);
+/// The outline of held particles away from the body (one anchor per unbroken stretch), and of loaded
+/// particles where the arrows come from, or where they go to if the body itself lies in their way.
+std::vector<SymbolAnchor> find_symbol_anchors(const Topology& topology, bool supports, bool loads);
 
 /// A place (m) that has to be in the picture, with room around it in pixels: left, top, right, bottom.
 struct Reserved {
@@ -28,9 +28,9 @@ struct Reserved {
     std::array<double, 4> room{};
 };
 
-/// The places of a mark's particles with the room that its symbol needs; arguments as in place_mark.
-std::vector<Reserved> reserve(const Mark& mark, std::span<const double> x, std::span<const double> y,
-                              double size, const View& view);
+/// The places of an anchor's particles with the room that its symbol needs; arguments as in place_symbol.
+std::vector<Reserved> reserve(const SymbolAnchor& anchor, std::span<const double> x,
+                              std::span<const double> y, double size, const View& view);
 
 /// Shows the window (x0, y0, x1, y1 in m), a margin and all reserved places in the plot, as large as
 /// possible.
@@ -39,7 +39,7 @@ Camera2 camera_for(const std::array<double, 4>& window, std::span<const Reserved
 
 /// The symbol at this moment: x, y are positions of all particles (m). `size` is the load's share of its
 /// largest value, negative where it has changed sign. Arrows are thinned out to a readable distance.
-Symbol place_mark(const Mark& mark, std::span<const double> x, std::span<const double> y,
-                  const Camera2& camera, double size, double unit);
+Symbol place_symbol(const SymbolAnchor& anchor, std::span<const double> x, std::span<const double> y,
+                    const Camera2& camera, double size, double unit);
 
 }  // namespace hibi

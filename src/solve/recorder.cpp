@@ -59,10 +59,10 @@ std::vector<std::int64_t> EvenStates::keep(double time, std::int64_t step) {
     return dropped;
 }
 
-Recorder::Recorder(const Scene& scene, const Simulation& simulation, RunMonitor& watch, RunWriter& writer,
+Recorder::Recorder(const Scene& scene, const Simulation& simulation, RunMonitor& monitor, RunWriter& writer,
                    StageTimes* profile)
     : simulation_(simulation),
-      watch_(watch),
+      monitor_(monitor),
       writer_(writer),
       profile_(profile),
       tick_(simulation.physics().statics ? simulation.physics().statics->pause() / first_state_steps
@@ -98,14 +98,14 @@ double Recorder::first_even_interval(const Scene& scene) const {
 
 void Recorder::look() {
     const double time = simulation_.time();
-    const Events& events = watch_.events();
-    if (!watch_.just_broken().empty()) writer_.breaks(watch_.just_broken());
+    const Events& events = monitor_.events();
+    if (!monitor_.just_broken().empty()) writer_.breaks(monitor_.just_broken());
 
     const double interval = std::max(
         {first_row_steps * tick_, unseen_, simulation_.physics().statics ? 0 : time / rows_per_time});
     const bool event = (events.first_break && events.first_break->time == time) ||
                        (events.separation && events.separation->time == time);
-    if (event || time - last_row_ >= (watch_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
+    if (event || time - last_row_ >= (monitor_.just_broken().empty() ? 1 : 0.25) * interval) write_row();
 
     if (even_.due(time)) keep(even_);
     for (Span& span : spans_)
@@ -172,7 +172,7 @@ void Recorder::write_ring() {
 
 void Recorder::write_row() {
     const TimedStage timed(profile_, "history");
-    const HistoryRow row = watch_.row();
+    const HistoryRow row = monitor_.row();
     imbalance_ = row.imbalance;
     last_row_ = row.time;
     if (std::isfinite(row.imbalance)) writer_.row(row);

@@ -38,10 +38,10 @@ class EvenStates {
 class Recorder {
  public:
     /// References are kept. The first state and row are recorded at once.
-    Recorder(const Scene& scene, const Simulation& simulation, RunMonitor& watch, RunWriter& writer,
+    Recorder(const Scene& scene, const Simulation& simulation, RunMonitor& monitor, RunWriter& writer,
              StageTimes* profile = nullptr);
 
-    /// After every step, when the watch has looked.
+    /// After every step, when the monitor has looked.
     void look();
     /// The last state and row, and what the ring still holds; of a state that is no longer finite only the
     /// latter.
@@ -61,7 +61,7 @@ class Recorder {
     void write_state(Snapshot state);
 
     const Simulation& simulation_;
-    RunMonitor& watch_;
+    RunMonitor& monitor_;
     RunWriter& writer_;
     StageTimes* profile_;
     std::map<std::int64_t, int> wanted_;  ///< by how many reasons the state of a step is kept

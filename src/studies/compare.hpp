@@ -29,10 +29,4 @@ struct CompareOptions {
 /// std::invalid_argument where the runs cannot be compared, std::runtime_error for the world's faults.
 void make_comparison(const CompareOptions& options);
 
-/// `hibi compare`: makes it and prints where it is.
-int compare_command(const CompareOptions& options);
-
-/// What tells runs apart: parameters that differ, else titles, else folders.
-std::vector<std::string> labels_of(const std::vector<std::filesystem::path>& folders);
-
 }  // namespace hibi

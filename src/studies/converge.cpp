@@ -67,7 +67,7 @@ Scene with_other_criterion(Scene scene, double spacing) {
     return scene;
 }
 
-int converge_command(ConvergeOptions options) {
+ConvergeResult run_convergence(ConvergeOptions options) {
     const Grid grid = read_grid(options.grid);
     if (grid.size() != 1 || grid[0].second.size() < 2)
         throw std::invalid_argument(
@@ -129,10 +129,7 @@ int converge_command(ConvergeOptions options) {
     film.quiet = study.quiet;
     film.renderer = options.renderer;
     if (options.film && film.folders.size() > 1) make_comparison(film);
-
-    fmt::print("{}", options.json ? json : study_table(runs));
-    if (!options.json) fmt::print("{}{}\n", verdict.warns ? "warning: " : "", verdict.caption);
-    return study_status(runs);
+    return {runs, json, verdict};
 }
 
 }  // namespace hibi

@@ -1,7 +1,6 @@
 #include "studies/verify.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +8,6 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "app/run.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "image/png.hpp"
@@ -17,6 +15,7 @@
 #include "record/files.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/suggest.hpp"
+#include "solve/run_to_end.hpp"
 
 namespace hibi {
 
@@ -38,31 +37,29 @@ VerifyRun observe(Scene scene, int observations, VerifyRow& row) {
     Built<2> built = build(scene);
     SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
     const std::unique_ptr<RunMonitor> monitor = make_run_monitor(simulation);
-    RunMonitor& watch = *monitor;
-    const ModalDisplacement swing(simulation);
+    const ModalDisplacement displacement(simulation);
     VerifyRun run{.scene = std::move(scene), .events = {}, .observations = {}};
     const auto look = [&] {
-        run.observations.push_back({.row = watch.row(),
-                                    .swing = swing.exists() ? swing(simulation) : 0,
+        run.observations.push_back({.row = monitor->row(),
+                                    .modal_displacement = displacement.exists() ? displacement(simulation) : 0,
                                     .angular_momentum = angular_momentum(simulation)});
     };
     const double expected = run.scene.run.max_time / simulation.time_step();
     const auto stride = static_cast<std::int64_t>(std::ceil(expected / observations));
     const Clock::time_point begin = Clock::now();
     look();
-    while (!reached_end(run.scene, watch, simulation.time())) {
-        simulation.step();
-        watch.look();
-        if (simulation.failure()) throw std::runtime_error(*simulation.failure());
-        if (simulation.collapse()) throw std::runtime_error(*simulation.collapse());
-        pull_triggers(run.scene, watch.events(), simulation);
+    const auto obstacle = run_to_end(run.scene, simulation, *monitor, [&]() -> std::optional<std::string> {
         if (simulation.steps() % stride == 0) look();
-    }
+        return {};
+    });
+    if (obstacle) throw std::runtime_error(*obstacle);
+    // A body that collapses is no answer, even where something broke before.
+    if (simulation.collapse()) throw std::runtime_error(*simulation.collapse());
     look();
     row.solve_seconds += since(begin);
     row.steps += simulation.steps();
-    row.particles = simulation.model().particles.count();
-    run.events = watch.events();
+    row.particles = simulation.particle_count();
+    run.events = monitor->events();
     return run;
 }
 
@@ -83,15 +80,6 @@ std::vector<const VerifyCase*> chosen_cases(const std::vector<std::string>& ids)
                             near ? fmt::format("did you mean \"{}\"?", *near) : "known: " + list_of(known)));
         }
     return chosen;
-}
-
-int print_list() {
-    for (const VerifyCase& c : verify_cases()) {
-        std::vector<std::string> values;
-        for (const VerifyResolution& r : c.resolutions) values.push_back(fmt::format("{:g}", r.value));
-        fmt::print("{:<26} {:<28} {} = {}\n", c.id, c.title, c.parameter, fmt::join(values, ", "));
-    }
-    return 0;
 }
 
 std::string command_of(const VerifyOptions& options) {
@@ -165,8 +153,7 @@ VerifyRow verify_row(const VerifyCase& c, const VerifyResolution& resolution, El
     return row;
 }
 
-int verify_command(const VerifyOptions& options) {
-    if (options.list) return print_list();
+Verification run_verification(const VerifyOptions& options) {
     const Clock::time_point begin = Clock::now();
     const std::vector<const VerifyCase*> cases = chosen_cases(options.cases);
     struct Task {
@@ -196,16 +183,12 @@ int verify_command(const VerifyOptions& options) {
     }
     const double seconds = since(begin);
     write_files(rows, options, seconds);
-    if (options.json)
-        fmt::print("{}", verification_json(rows));
-    else
-        fmt::print("{}\n{}\n{:.0f} s, {} thread{}; {}\n", verification_table(rows),
-                   verification_verdict(rows), seconds, threads(), threads() == 1 ? "" : "s",
-                   (options.folder / "verify.html").string());
+    return {rows, seconds};
+}
+
+bool Verification::passes() const {
     return std::ranges::all_of(
-               rows, [](const VerifyRow& row) { return row.failure.empty() && row.pass().value_or(true); })
-               ? 0
-               : 1;
+        rows, [](const VerifyRow& row) { return row.failure.empty() && row.pass().value_or(true); });
 }
 
 }  // namespace hibi

@@ -56,12 +56,12 @@ VerifyResult judge_cantilever(const std::vector<VerifyRun>& runs) {
 }
 
 double period(const VerifyRun& run) {
-    std::vector<double> times, swing;
+    std::vector<double> times, displacement;
     for (const VerifyObservation& o : run.observations) {
         times.push_back(o.row.time);
-        swing.push_back(o.swing);
+        displacement.push_back(o.modal_displacement);
     }
-    return period_of(times, swing).value_or(std::nan(""));
+    return period_of(times, displacement).value_or(std::nan(""));
 }
 
 VerifyResult judge_free_beam(const std::vector<VerifyRun>& runs) {

@@ -12,7 +12,7 @@ namespace hibi {
 /// What a case may need of one moment of a run.
 struct VerifyObservation {
     HistoryRow row;
-    double swing = 0;             ///< see Swing (s)
+    double modal_displacement = 0;  ///< see ModalDisplacement (s)
     double angular_momentum = 0;  ///< (kg m^2/s)
 };
 

@@ -54,7 +54,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> rooms_of_librar
     {"cairo.*|png\\.h", {"image"}},
     {"ft2build\\.h|freetype.*", {"image"}},
     {"CLI/.*", {"app"}},
-    {"nlohmann/.*", {"record", "scene", "report", "app"}},
+    {"nlohmann/.*", {"record", "scene", "report", "picture_tests", "app"}},
     {"udunits2\\.h|nettle/.*", {"base"}},
 };
 
@@ -80,11 +80,37 @@ std::vector<std::string> offences_in(const fs::path& source, const Table& table)
     return offences;
 }
 
+/// The rooms that a room links: those of its row, those of theirs, and so on.
+std::set<std::string> links_of(const std::string& room, const Table& table) {
+    std::set<std::string> links;
+    for (const std::string& used : table.at(room)) {
+        links.insert(used);
+        links.merge(links_of(used, table));
+    }
+    return links;
+}
+
+constexpr int most_lines = 400;
+constexpr const char* long_for_a_reason = "Longer than 400 lines because ";
+
+/// Files of a folder that are longer than they may be and do not say why in their first lines.
+std::vector<std::string> too_long(const fs::path& source) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(source)) {
+        if (!entry.is_regular_file()) continue;
+        const std::string text = text_of(entry.path());
+        const auto lines = std::ranges::count(text, '\n');
+        if (lines > most_lines && text.substr(0, 600).find(long_for_a_reason) == std::string::npos)
+            files.push_back(entry.path().string() + ": " + std::to_string(lines) + " lines");
+    }
+    return files;
+}
+
 TEST(Layers, TableIsReadFromTheBuildFile) {
     const Table table = layers();
-    EXPECT_EQ(table.size(), 11u);  // the folders of src/
+    EXPECT_EQ(table.size(), 16u);  // the folders of src/
     EXPECT_TRUE(table.at("base").empty());
-    EXPECT_EQ(table.at("record"), (std::set<std::string>{"base", "measure"}));
+    EXPECT_EQ(table.at("record"), (std::set<std::string>{"base", "results"}));
 }
 
 TEST(Layers, TableHasNoCircle) {
@@ -101,6 +127,48 @@ TEST(Layers, TableHasNoCircle) {
 TEST(Layers, NoFolderIncludesMoreThanItsRowAllows) {
     const std::vector<std::string> offences = offences_in(HIBI_SOURCE_DIR "/src", layers());
     for (const std::string& offence : offences) ADD_FAILURE() << offence;
+}
+
+TEST(Layers, WhatRecordsAndDrawsLinksNoSolver) {
+    const Table table = layers();
+    for (const char* room : {"results", "record", "image", "render", "film", "report"}) {
+        const std::set<std::string> links = links_of(room, table);
+        for (const char* solver : {"model", "physics", "measure", "solve"})
+            EXPECT_FALSE(links.contains(solver)) << room << " links " << solver;
+    }
+    EXPECT_TRUE(links_of("app", table).contains("physics"));
+}
+
+TEST(Layers, EveryFolderOfSourcesIsKnownToTheBuild) {
+    const std::string cmake = text_of(HIBI_SOURCE_DIR "/CMakeLists.txt");
+    const Table table = layers();
+    const fs::path source = HIBI_SOURCE_DIR "/src";
+    for (const auto& entry : fs::recursive_directory_iterator(source)) {
+        if (!entry.is_directory()) continue;
+        const fs::path folder = fs::relative(entry.path(), source);
+        const std::string inner = folder.filename().string();
+        EXPECT_TRUE(folder == inner ? table.contains(inner)
+                                    : cmake.find("/" + inner + "/") != std::string::npos)
+            << folder;
+    }
+}
+
+TEST(Layers, NoSourceIsLongWithoutAReason) {
+    for (const std::string& file : too_long(HIBI_SOURCE_DIR "/src")) ADD_FAILURE() << file;
+}
+
+TEST(Layers, LongSourcesAreSeenUnlessTheySayWhy) {
+    const fs::path source = fs::temp_directory_path() / "hibi-long-sources-test";
+    fs::create_directories(source / "physics");
+    const std::string lines(most_lines, '\n');
+    std::ofstream(source / "physics" / "just_right.cpp") << lines;
+    std::ofstream(source / "physics" / "table.cpp") << "// " << long_for_a_reason << "it is one table.\n"
+                                                    << lines;
+    std::ofstream(source / "physics" / "everything.cpp") << "// All of it.\n" << lines;
+    const std::vector<std::string> files = too_long(source);
+    fs::remove_all(source);
+    ASSERT_EQ(files.size(), 1u);
+    EXPECT_TRUE(files[0].ends_with("everything.cpp: 401 lines"));
 }
 
 TEST(Layers, OffencesAreSeen) {

@@ -77,7 +77,7 @@ TEST_F(WholeRun, IsWorkedOutOncePerReader) {
     EXPECT_EQ(run_->once<int>("calls", count), 1);
     EXPECT_EQ(run_->once<int>("calls", count), 1);
     EXPECT_EQ(run_->once<int>("other calls", count), 2);
-    EXPECT_EQ(&loose_since(*run_), &loose_since(*run_));
+    EXPECT_EQ(&detached_at(*run_), &detached_at(*run_));
 }
 
 TEST_F(Picture, NearestBondsAreThoseOfTheLatticeSpacing) {
@@ -155,8 +155,8 @@ TEST_F(WholeRun, TheWindowDoesNotFollowWhatFliesOff) {
     cantilever_.write(folder_.path());
     const RunReader run(folder_.path());
     EXPECT_GT(run.extent(30).high.x(), 100);
-    EXPECT_EQ(loose_since(run)[199], 0.5);
-    EXPECT_FALSE(std::isfinite(loose_since(run)[198]));
+    EXPECT_EQ(detached_at(run)[199], 0.5);
+    EXPECT_FALSE(std::isfinite(detached_at(run)[198]));
     for (int k = 0; k < 4; ++k) EXPECT_NEAR(body_window(run, View{})[k], whole[k], 1);
 }
 

@@ -8,6 +8,7 @@
 #include "image/png.hpp"
 #include "record/summary.hpp"
 #include "scene/read.hpp"
+#include "studies/compared_runs.hpp"
 #include "support/recorded_cantilever.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -69,7 +69,7 @@ TEST(Verify, WritesItsFilesAndTellsAMissedGoal) {
     const TemporaryFolder folder;
     VerifyOptions options{
         .cases = {"bar_wave"}, .quick = true, .folder = folder.path() / "out", .quiet = true};
-    EXPECT_EQ(verify_command(options), 0);
+    EXPECT_TRUE(run_verification(options).passes());
     for (const char* name :
          {"verify.json", "verify.csv", "verify.html", "speed_vs_error.svg", "speed_vs_error.png"})
         EXPECT_TRUE(std::filesystem::exists(options.folder / name)) << name;
@@ -79,10 +79,10 @@ TEST(Verify, WritesItsFilesAndTellsAMissedGoal) {
 
     options.variant = "default";
     options.goals = 1e-9;
-    EXPECT_EQ(verify_command(options), 1);
+    EXPECT_FALSE(run_verification(options).passes());
     EXPECT_EQ(nlohmann::json::parse(std::ifstream(options.folder / "verify.json")).size(), 3u);
     options.cases = {"bar_waves"};
-    EXPECT_THROW(verify_command(options), std::invalid_argument);
+    EXPECT_THROW(run_verification(options), std::invalid_argument);
 }
 
 }  // namespace

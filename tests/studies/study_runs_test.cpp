@@ -1,4 +1,4 @@
-#include "studies/sweep.hpp"
+#include "studies/study_runs.hpp"
 
 #include <gtest/gtest.h>
 

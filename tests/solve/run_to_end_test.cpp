@@ -1,0 +1,106 @@
+#include "solve/run_to_end.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scene/read.hpp"
+
+namespace hibi {
+namespace {
+
+/// A column that hangs from its upper end and is pulled down at the lower one.
+BuiltScene hanging(const std::string& run, const std::string& load = "") {
+    const Scene scene = parse_scene(R"(
+version = 1
+[material.rubber]
+density = "1000 kg/m^3"
+youngs_modulus = "1 MPa"
+poissons_ratio = 0.3
+[[body]]
+name = "column"
+material = "rubber"
+box = [["0 m", "0 m"], ["2 m", "6 m"]]
+spacing = "1 m"
+[[fix]]
+name = "top"
+where = "y > 5 m"
+hold = ["x", "y"]
+[[load]]
+name = "weight"
+where = "y < 1 m"
+force = ["0 N", "-10 N"]
+)" + load + "\n[run]\n" + run + "\n",
+                                    "hanging.toml");
+    return {scene, build(scene)};
+}
+
+struct Steps {
+    explicit Steps(BuiltScene setup)
+        : scene(std::move(setup.scene)),
+          simulation(std::move(setup.built.model), std::move(setup.built.physics)),
+          watch(simulation) {}
+
+    Scene scene;
+    Simulation<2> simulation;
+    Watch<2> watch;
+};
+
+TEST(RunToEnd, CallsBackAfterEachStepUntilTheSceneEnds) {
+    Steps s(hanging(R"(max_time = "1 s")"));
+    std::int64_t calls = 0;
+    const auto obstacle = run_to_end(s.scene, s.simulation, s.watch, [&]() -> std::optional<std::string> {
+        ++calls;
+        EXPECT_EQ(s.simulation.steps(), calls);
+        EXPECT_EQ(s.watch.events().end, s.simulation.time()) << "the watch has looked";
+        return {};
+    });
+    EXPECT_FALSE(obstacle);
+    EXPECT_EQ(calls, s.simulation.steps());
+    EXPECT_GE(s.simulation.time(), 1);
+    EXPECT_LT(s.simulation.time() - s.simulation.time_step(), 1);
+}
+
+TEST(RunToEnd, StopsWhereTheCallerSaysSo) {
+    Steps s(hanging(R"(max_time = "1 s")"));
+    const auto obstacle = run_to_end(s.scene, s.simulation, s.watch, [&]() -> std::optional<std::string> {
+        if (s.simulation.steps() == 3) return "enough";
+        return {};
+    });
+    EXPECT_EQ(obstacle, "enough");
+    EXPECT_EQ(s.simulation.steps(), 3);
+}
+
+TEST(RunToEnd, ReleasesALoadAtItsMomentBeforeTheCallerLooks) {
+    Steps s(hanging(R"(max_time = "1 s")", R"(until = "0.5 s")"));
+    double before = 0, after = 0;
+    run_to_end(s.scene, s.simulation, s.watch, [&]() -> std::optional<std::string> {
+        (s.simulation.time() < 0.5 ? before : after) = s.watch.row().load;
+        return {};
+    });
+    EXPECT_EQ(before, 10);
+    EXPECT_EQ(after, 0);
+}
+
+TEST(RunToEnd, ASceneThatWaitsForASeparationNeedsSomethingThatHolds) {
+    const BuiltScene setup = hanging("until = \"separation\"\nmax_time = \"1 s\"");
+    const Simulation<2> held(setup.built.model, setup.built.physics);
+    EXPECT_NO_THROW(require_separable(setup.scene, Watch<2>(held)));
+    Scene scene = setup.scene;
+    Physics physics = setup.built.physics;
+    physics.holds.clear();
+    const Simulation<2> free(setup.built.model, physics);
+    EXPECT_THROW(require_separable(scene, Watch<2>(free)), SceneErrors);
+    scene.run.until.reset();
+    EXPECT_NO_THROW(require_separable(scene, Watch<2>(free)));
+}
+
+TEST(RunToEnd, ARunOfMoreStepsThanAnyoneCanWaitForIsRefused) {
+    const BuiltScene setup = hanging(R"(max_time = "1 s")");
+    const Simulation<2> simulation(setup.built.model, setup.built.physics);
+    EXPECT_NO_THROW(require_steps_that_end(setup.scene, simulation));
+    Scene scene = setup.scene;
+    scene.run.max_time = 1.1e9 * simulation.time_step();
+    EXPECT_THROW(require_steps_that_end(scene, simulation), SceneErrors);
+}
+
+}  // namespace
+}  // namespace hibi
