@@ -10,6 +10,8 @@
 #include "scene/expression_names.hpp"
 #include "scene/suggest.hpp"
 
+// Longer than other files: the functions of a grammar call each other, and are read in one go.
+
 namespace hibi {
 
 namespace {
