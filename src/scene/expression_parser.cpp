@@ -1,3 +1,4 @@
+// More than 400 lines: the functions of a grammar call each other and are read together.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -9,8 +10,6 @@
 #include "scene/expression.hpp"
 #include "scene/expression_names.hpp"
 #include "scene/suggest.hpp"
-
-// Longer than other files: the functions of a grammar call each other, and are read in one go.
 
 namespace hibi {
 
