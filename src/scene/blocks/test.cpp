@@ -19,7 +19,8 @@ Block<TestLimits> tolerance_keys() {
     limits.add("position", &TestLimits::position, "", "difference of positions, in particle spacings", "0.1",
                by_default("0.01"), at_least(0));
     limits.add("break_steps", &TestLimits::break_steps, "",
-               "steps by which a bond may break earlier or later", "2", by_default("0"), at_least(0), at_most(1e9));
+               "steps by which a bond may break earlier or later", "2", by_default("0"), at_least(0),
+               at_most(1e9));
     limits.add("load", &TestLimits::load, "", "difference of loads, in parts of the peak load", "0.01",
                by_default("0.001"), at_least(0));
     return limits;
