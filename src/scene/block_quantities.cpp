@@ -104,10 +104,20 @@ std::optional<double> BlockReader::number_of(const std::string& key, const Value
     return (*field)(Vec3::Zero(), 0);
 }
 
+std::optional<double> BlockReader::in_range(const std::string& key, std::optional<double> number) {
+    if (!number) return {};
+    const Range& range = block_.find(key)->range;
+    const Range::End* passed = range.passed_by(*number);
+    if (!passed) return number;
+    fail(key, fmt::format("{} needs to be {}; found {}", label(key), range.words(), *number), passed->hint);
+    return {};
+}
+
 std::optional<std::int64_t> BlockReader::integer(const std::string& key) {
     const Value* value = find(key, KeyKind::integer);
     if (!value) return {};
-    if (value->kind == Value::Kind::integer) return value->integer;
+    if (value->kind == Value::Kind::integer)
+        return in_range(key, value->number) ? std::optional(value->integer) : std::nullopt;
     if (value->kind != Value::Kind::text) {
         wrong(key, *value, path(key), "a whole number");
         return {};
@@ -117,16 +127,18 @@ std::optional<std::int64_t> BlockReader::integer(const std::string& key) {
     constexpr double exact = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
     if (*number != std::round(*number) || std::abs(*number) > exact) {
         context_.problems.add(path(key), value->place,
-                              fmt::format("{} needs a whole number; found {}", label(key), *number), hint(key));
+                              fmt::format("{} needs a whole number; found {}", label(key), *number),
+                              hint(key));
         return {};
     }
+    if (!in_range(key, number)) return {};
     return static_cast<std::int64_t>(*number);
 }
 
 std::optional<double> BlockReader::quantity(const std::string& key) {
     const Value* value = find(key, KeyKind::quantity);
     if (!value) return {};
-    return number_of(key, *value, path(key), block_.find(key)->unit);
+    return in_range(key, number_of(key, *value, path(key), block_.find(key)->unit));
 }
 
 std::optional<Field> BlockReader::field(const std::string& key, bool in_time) {
@@ -199,7 +211,10 @@ std::optional<std::vector<Vec<2>>> BlockReader::points(const std::string& key) {
 
 std::optional<Moment> BlockReader::moment(const std::string& key) {
     const Value* value = find(key, KeyKind::moment);
-    return value ? moment_of(key, *value, path(key)) : std::nullopt;
+    const auto moment = value ? moment_of(key, *value, path(key)) : std::nullopt;
+    if (moment)
+        context_.moments.push_back({path(key), label(key), *moment, block_.find(key)->ends_something, false});
+    return moment;
 }
 
 std::optional<std::vector<Moment>> BlockReader::moments(const std::string& key) {
@@ -213,7 +228,10 @@ std::optional<std::vector<Moment>> BlockReader::moments(const std::string& key) 
     for (std::size_t i = 0; i < value->items.size(); ++i) {
         const std::string sub_path = fmt::format("{}/{}", path(key), i);
         context_.problems.stands_at(sub_path, value->items[i].place);
-        if (const auto moment = moment_of(key, value->items[i], sub_path)) moments.push_back(*moment);
+        if (const auto moment = moment_of(key, value->items[i], sub_path)) {
+            moments.push_back(*moment);
+            context_.moments.push_back({sub_path, label(key), *moment, false, true});
+        }
     }
     if (context_.problems.concerns(path(key))) return {};
     return moments;

@@ -60,8 +60,6 @@ const Value* BlockReader::find(const std::string& key, KeyKind kind) const {
     return table_.find(key);
 }
 
-std::string BlockReader::label(const std::string& key) const { return title_ + " " + key; }
-
 std::string BlockReader::hint(const std::string& key) const {
     return fmt::format("for example: {} = {}", key, block_.find(key)->example);
 }
@@ -75,6 +73,7 @@ void BlockReader::wrong(const std::string& key, const Value& value, const std::s
 }
 
 std::optional<std::string> BlockReader::text(const std::string& key) {
+    if (block_.find(key)->kind == KeyKind::choice) return choice(key);
     const Value* value = find(key, KeyKind::text);
     if (!value) return {};
     if (value->kind != Value::Kind::text) {
@@ -149,9 +148,23 @@ std::optional<std::vector<std::string>> BlockReader::choices(const std::string& 
 }
 
 std::optional<std::vector<std::string>> BlockReader::names(const std::string& key) {
+    if (block_.find(key)->kind == KeyKind::choices) return choices(key);
     const Value* value = find(key, KeyKind::names);
-    if (!value) return {};
-    return list_of_texts(key, *value);
+    return value ? list_of_texts(key, *value) : std::nullopt;
+}
+
+std::optional<int> BlockReader::body(const std::string& key) {
+    const auto name = text(key);
+    if (!name) return {};
+    std::vector<std::string> known;
+    for (const BodySpec& body : context_.scene.bodies) {
+        if (body.name == *name) return static_cast<int>(known.size());
+        known.push_back(body.name);
+    }
+    const auto near = nearest(*name, known);
+    fail(key, fmt::format("no body \"{}\"", *name),
+         near ? fmt::format("did you mean \"{}\"?", *near) : "known: " + list_of(known));
+    return {};
 }
 
 std::optional<std::array<int, 2>> BlockReader::size(const std::string& key) {
@@ -166,9 +179,10 @@ std::optional<std::array<int, 2>> BlockReader::size(const std::string& key) {
         const Value& item = value->items[k];
         const std::string sub_path = fmt::format("{}/{}", path(key), k);
         context_.problems.stands_at(sub_path, item.place);
-        if (item.kind != Value::Kind::integer || item.integer < 64 || item.integer > 16384) {
+        if (item.kind != Value::Kind::integer || item.integer < least_pixels || item.integer > most_pixels) {
             context_.problems.add(sub_path,
-                                  fmt::format("{} needs whole numbers of pixels, 64 to 16384", label(key)),
+                                  fmt::format("{} needs whole numbers of pixels, {} to {}", label(key),
+                                              least_pixels, most_pixels),
                                   hint(key));
             continue;
         }

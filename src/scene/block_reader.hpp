@@ -14,10 +14,20 @@
 
 namespace hibi {
 
+/// A moment that was read. Whether it can come is judged when the whole scene is known.
+struct GivenMoment {
+    std::string path, label;
+    Moment moment;
+    bool ends_something = false;  ///< as in Key
+    bool is_picture = false;      ///< a picture of an event that cannot happen is left out
+};
+
 /// What reading a value needs to know about the scene around it.
 struct ReadContext {
+    const Scene& scene;  ///< as far as it has been read
     Names names{};
     std::set<std::string> broken_names{};  ///< parameters that could not be read: what uses them stays silent
+    std::vector<GivenMoment> moments{};
     Problems problems{};
 };
 
@@ -31,9 +41,14 @@ class BlockReader {
 
     const std::string& path() const { return path_; }
     std::string path(const std::string& key) const { return path_ + "/" + key; }
-    const std::string& name() const { return block_.name; }
+    const Scene& scene() const { return context_.scene; }
+    /// "[run] max_time", for messages.
+    std::string label(const std::string& key) const { return title_ + " " + key; }
     bool has(const std::string& key) const { return table_.find(key) != nullptr; }
+    bool is_fine(const std::string& key) const { return context_.problems.fine(path(key)); }
     void fail(const std::string& key, const std::string& message, const std::string& hint = {});
+    /// Says nothing of a key that follows from another one.
+    void silence(const std::string& key) { context_.problems.silence(path(key)); }
 
     std::optional<std::string> text(const std::string& key);
     std::optional<bool> flag(const std::string& key);
@@ -52,6 +67,8 @@ class BlockReader {
     std::optional<Moment> moment(const std::string& key);
     std::optional<std::vector<Moment>> moments(const std::string& key);
     std::optional<Selection> condition(const std::string& key);
+    /// The index of the body that a text names.
+    std::optional<int> body(const std::string& key);
     /// [low, high] in `unit`; nothing for "run".
     std::optional<std::array<double, 2>> range(const std::string& key, const std::string& unit);
     std::optional<std::array<int, 2>> size(const std::string& key);
@@ -68,10 +85,11 @@ class BlockReader {
     std::string path_, title_;
 
     const Value* find(const std::string& key, KeyKind kind) const;
-    std::string label(const std::string& key) const;
     std::string hint(const std::string& key) const;
     void wrong(const std::string& key, const Value& value, const std::string& sub_path,
                const std::string& wanted);
+    /// Reports a number that is outside the range of its key, and gives nothing then.
+    std::optional<double> in_range(const std::string& key, std::optional<double> number);
     /// An expression of the given unit. Reports under sub_path.
     std::optional<Expression> expression(const std::string& key, const Value& value,
                                          const std::string& sub_path, const Names& names);

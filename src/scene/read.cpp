@@ -14,10 +14,10 @@
 #include "base/units.hpp"
 #include "image/shaping.hpp"
 #include "image/text.hpp"
+#include "scene/blocks/blocks.hpp"
 #include "scene/build.hpp"
 #include "scene/checks.hpp"
 #include "scene/prescan.hpp"
-#include "scene/read_blocks.hpp"
 #include "scene/suggest.hpp"
 
 namespace hibi {
@@ -111,20 +111,15 @@ void read_params(const Value& document, const Overrides& overrides, ReadContext&
     }
 }
 
-/// Blocks that are unknown, not built yet, or written in the wrong brackets; and the keys at the top.
-void read_top(Value& document, ReadContext& context, Scene& scene) {
+/// Reports blocks that are unknown, not built yet, or written in the wrong brackets.
+void check_blocks(const Value& document, ReadContext& context) {
     const KeyBlock& top = scene_block("");
     std::vector<std::string> known = top.key_names();
     known.push_back("params");
     for (const KeyBlock& block : scene_blocks())
         if (block.form != KeyBlock::Form::inner && !block.name.empty()) known.push_back(block.name);
-    Value own;  // the keys at the top, without the blocks
-    own.place = document.place;
     for (const Entry& entry : document.entries) {
-        if (top.find(entry.key)) {
-            own.entries.push_back(entry);
-            continue;
-        }
+        if (top.find(entry.key)) continue;
         const std::string shown = entry.value.kind == Value::Kind::array ? fmt::format("[[{}]]", entry.key)
                                   : entry.value.kind == Value::Kind::table
                                       ? fmt::format("[{}]", entry.key)
@@ -162,14 +157,6 @@ void read_top(Value& document, ReadContext& context, Scene& scene) {
                                  fmt::format("{} stands where a block is expected", shown), hint);
         }
     }
-    BlockReader reader(context, own, top, "", "the scene");
-    if (const auto version = reader.integer("version"); version && *version != 1)
-        reader.fail("version", fmt::format("version {} of the scene format is not known here", *version),
-                    "this program reads version = 1");
-    scene.title = reader.text("title").value_or(scene.file.stem().string());
-    scene.about = reader.text("about").value_or("");
-    if (scene.title.find_first_of("\n\r\t") != std::string::npos)
-        reader.fail("title", "title needs to be one line");
 }
 
 /// What stands in pictures must have glyphs: to be told now, not when everything has been simulated.
@@ -198,9 +185,20 @@ void check_texts(const Value& document, const Scene& scene, Problems& problems) 
         }
 }
 
-}  // namespace
-
-namespace {
+/// Fills a scene from a document. What is wrong is told to the problems, and keeps its default.
+void read_document(const Value& document, const Overrides& overrides, ReadContext& context, Scene& scene) {
+    check_blocks(document, context);
+    read_params(document, overrides, context, scene);
+    for (const Entry& entry : document.entries) context.problems.stands_at(entry.key, entry.value.place);
+    for (const SceneBlock& block : bound_blocks()) block.read(document, context, scene);
+    for (const bool single : {true, false})
+        for (const KeyBlock& block : scene_blocks()) {
+            if (!block.required || (block.form == KeyBlock::Form::single) != single) continue;
+            const Value* value = document.find(block.name);
+            if (!value || (!single && value->items.empty() && value->entries.empty()))
+                context.problems.add(block.name, "missing block " + block.title, block.if_missing);
+        }
+}
 
 BuiltScene parse(const std::string& text, const std::string& name, const Overrides& overrides,
                  bool assembled) {
@@ -211,19 +209,13 @@ BuiltScene parse(const std::string& text, const std::string& name, const Overrid
     Value document = parse_document(text, errors);
     if (!errors.empty()) throw SceneErrors(name, text, std::move(errors));
 
-    ReadContext context;
+    ReadContext context{scene};
     // What is missing as a whole is missed at the end of the file.
     const int lines =
         static_cast<int>(std::count(text.begin(), text.end(), '\n')) + (text.ends_with('\n') ? 0 : 1);
     document.place = {std::max(1, lines), 1, 1};
-    read_top(document, context, scene);
-    read_params(document, overrides, context, scene);
-    read_blocks(document, context, scene);
-    if (std::none_of(scene.loads.begin(), scene.loads.end(),
-                     [](const LoadSpec& load) { return load.primary; }) &&
-        !scene.loads.empty())
-        scene.loads.front().primary = true;
-    check_scene(scene, context.problems);
+    read_document(document, overrides, context, scene);
+    check_scene(scene, context.moments, context.problems);
     if (assembled) check_texts(document, scene, context.problems);
     if (assembled) read.built = assemble(scene, context.problems);
     if (!context.problems.errors().empty()) throw SceneErrors(name, text, context.problems.errors());
@@ -262,6 +254,12 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) 
 
 Scene read_recorded_scene(const std::filesystem::path& folder) {
     return read(folder / "scene.toml", {}, false).scene;
+}
+
+std::string write_scene(const Scene& scene) {
+    std::string text;
+    for (const SceneBlock& block : bound_blocks()) text += block.write(scene);
+    return text;
 }
 
 std::string scene_hash(const Scene& scene) { return sha256(write_scene(scene)); }

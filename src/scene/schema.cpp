@@ -72,6 +72,15 @@ Json per_axis(const Json& items) {
     return schema;
 }
 
+/// The range of a key, for values that are written as plain numbers.
+void limit(Json& schema, const Range& range) {
+    const auto end = [&](const char* included, const char* excluded, const Range::End& its) {
+        schema[its.included ? included : excluded] = its.value;
+    };
+    if (range.is_limited_below()) end("minimum", "exclusiveMinimum", range.low);
+    if (range.is_limited_above()) end("maximum", "exclusiveMaximum", range.high);
+}
+
 /// What a key may hold.
 Json value_schema(const Key& key) {
     const Json text = {{"type", "string"}};
@@ -106,7 +115,10 @@ Json value_schema(const Key& key) {
         case KeyKind::range:
             return {{"anyOf", {Json{{"const", "run"}}, per_axis(quantity)}}};
         case KeyKind::size:
-            return per_axis({{"type", "integer"}, {"minimum", 64}, {"maximum", 16384}, {"multipleOf", 2}});
+            return per_axis({{"type", "integer"},
+                             {"minimum", least_pixels},
+                             {"maximum", most_pixels},
+                             {"multipleOf", 2}});
         case KeyKind::table:
             return block_schema(scene_block(key.unit));
         case KeyKind::tables:
@@ -117,10 +129,12 @@ Json value_schema(const Key& key) {
 
 bool is_table(const Key& key) { return key.kind == KeyKind::table || key.kind == KeyKind::tables; }
 
-/// Meaning, unit, default and example in words: what an editor shows.
+/// Meaning, unit, range, default and example in words: what an editor shows.
 std::string description(const Key& key) {
     std::string text = key.meaning.empty() ? "" : key.meaning + "\n\n";
     if (!key.unit.empty() && !is_table(key)) text += fmt::format("Unit: {}. ", key.unit);
+    if (const std::string range = key.range.words(); !range.empty())
+        text += fmt::format("Range: {}. ", range);
     if (key.standard.starts_with("required"))
         text += fmt::format("R{}. ", key.standard.substr(1));
     else if (!key.standard.empty())
@@ -130,6 +144,7 @@ std::string description(const Key& key) {
 
 Json key_schema(const Key& key) {
     Json schema = value_schema(key);
+    limit(schema, key.range);
     schema["description"] = description(key);
     if (const auto value = default_value(key)) schema["default"] = *value;
     if (const auto value = written(key.example)) schema["examples"] = Json::array({*value});

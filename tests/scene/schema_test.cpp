@@ -53,6 +53,10 @@ void expect_keys(const Json& place, const KeyBlock& block) {
         if (!key.unit.empty()) {
             EXPECT_NE(described.find("Unit: " + key.unit + "."), described.npos) << label;
         }
+        EXPECT_EQ(its.contains("minimum") || its.contains("exclusiveMinimum"), key.range.is_limited_below())
+            << label;
+        EXPECT_EQ(its.contains("maximum") || its.contains("exclusiveMaximum"), key.range.is_limited_above())
+            << label;
         const Json& values = key.kind == KeyKind::choices ? its["items"] : its;
         EXPECT_EQ(values.value("enum", std::vector<std::string>{}), key.choices) << label;
     }
