@@ -5,8 +5,8 @@
 #include "physics/block_order.hpp"
 #include "physics/bond_kernel.hpp"
 #include "physics/compact_bonds.hpp"
-#include "physics/dilatation.hpp"
 #include "physics/elastic.hpp"
+#include "physics/elastic_coefficients.hpp"
 
 namespace hibi {
 
@@ -49,10 +49,7 @@ Polar polar(double trace, double twist, double m) {
 class MomentMatched final : public ElasticLaw<2> {
  public:
     MomentMatched(const Model<2>& model, const BreakLimits& limits)
-        : bonds_(model, moment_matched_weights(model), dilatation_moduli(model), limits),
-          order_(model.bonds),
-          loops_(kernel::loops()),
-          watches_(!limits.upper.empty()) {}
+        : MomentMatched(model, elastic_coefficients(model), limits) {}
 
     void displaced(const Model<2>& model, int begin, int end) override {
         bonds_.read(model.particles.displacement, begin, end);
@@ -86,20 +83,63 @@ class MomentMatched final : public ElasticLaw<2> {
     }
 
     LocalState<2> local(const Model<2>& model, int i) const override {
+        LocalState<2> state =
+            local(model, i, bonds_.lambda(i), [&](auto&& visit) { bonds_.each_bond(i, visit); });
+        if (const auto gauge = first_gauge(i); gauge != gauges_.end() && gauge->particle == i) {
+            const LocalState<2> measured =
+                local(model, i, gauge->lambda, [&](auto&& visit) { each_bond(model, *gauge, visit); });
+            state.stress = measured.stress;
+            state.dilatation = measured.dilatation;
+        }
+        return state;
+    }
+
+    std::vector<LocalState<2>> local(const Model<2>& model, int begin, int end) const override {
+        std::vector<kernel::State> states((chunk(end) - chunk(begin)) * kernel::lanes);
+        loops_.states(bonds_.arrays(nullptr), chunk(begin), chunk(end), states.data());
+        std::vector<LocalState<2>> local(end - begin);
+        for (int k = 0; k < end - begin; ++k) {
+            const kernel::State& s = states[k];
+            local[k].energy = s.energy;
+            local[k].dilatation = s.dilatation;
+            local[k].stress << s.xx, s.xy, s.xy, s.yy;
+            local[k].bond_strain = LargestStrain{s.longest, s.shortest}.strain();
+        }
+        for (auto gauge = first_gauge(begin); gauge != gauges_.end() && gauge->particle < end; ++gauge)
+            local[gauge->particle - begin] = this->local(model, gauge->particle);
+        return local;
+    }
+
+    void remove(const Bonds& bonds, int bond) override {
+        bonds_.remove(bonds.first[bond], bonds.second[bond]);
+    }
+
+ private:
+    MomentMatched(const Model<2>& model, ElasticCoefficients coefficients, const BreakLimits& limits)
+        : bonds_(model, coefficients, limits),
+          gauges_(std::move(coefficients.gauges)),
+          order_(model.bonds),
+          loops_(kernel::loops()),
+          watches_(!limits.upper.empty()) {}
+
+    /// each_bond(visit) calls visit(j, r0, s_ij / |r0|^2) for some bonds of particle i.
+    template <class EachBond>
+    LocalState<2> local(const Model<2>& model, int i, double lambda, EachBond&& each_bond) const {
         const std::vector<Vec<2>>& u = model.particles.displacement;
-        const double mu = bonds_.two_mu(i) / 2, lambda = bonds_.lambda(i), volume = bonds_.volume(i);
-        double trace = 0, twist = 0;
-        bonds_.each_bond(i, [&](int j, const Vec<2>& r0, double own) {
+        const double mu = bonds_.two_mu(i) / 2, volume = bonds_.volume(i);
+        double trace = 0, twist = 0, m = 0;
+        each_bond([&](int j, const Vec<2>& r0, double own) {
             const Vec<2> du = u[j] - u[i], part = own * (1 / volume) * r0;
             trace += du.x() * part.x() + du.y() * part.y();
             twist += du.y() * part.x() - du.x() * part.y();
+            m += own * r0.squaredNorm();
         });
-        const Polar p = polar(trace, twist, bonds_.trace(i));
+        const Polar p = polar(trace, twist, m / volume);
         const Mat<2> R = p.rotation();
         LocalState<2> state;
         Mat<2> strain = Mat<2>::Zero();  // sym(R^T A) - M, in the particle's own frame
         LargestStrain largest;
-        bonds_.each_bond(i, [&](int j, const Vec<2>& r0, double own) {
+        each_bond([&](int j, const Vec<2>& r0, double own) {
             const Vec<2> du = u[j] - u[i], stretch = du - p.change(r0);  // the second r - R r0
             largest.look((2 * r0.dot(du) + du.squaredNorm()) / r0.squaredNorm());
             state.energy += mu * own * stretch.squaredNorm();
@@ -113,25 +153,20 @@ class MomentMatched final : public ElasticLaw<2> {
         return state;
     }
 
-    std::vector<LocalState<2>> local(const Model<2>&, int begin, int end) const override {
-        std::vector<kernel::State> states((chunk(end) - chunk(begin)) * kernel::lanes);
-        loops_.states(bonds_.arrays(nullptr), chunk(begin), chunk(end), states.data());
-        std::vector<LocalState<2>> local(end - begin);
-        for (int k = 0; k < end - begin; ++k) {
-            const kernel::State& s = states[k];
-            local[k].energy = s.energy;
-            local[k].dilatation = s.dilatation;
-            local[k].stress << s.xx, s.xy, s.xy, s.yy;
-            local[k].bond_strain = LargestStrain{s.longest, s.shortest}.strain();
+    /// The first of particle i or a later one.
+    std::vector<Gauge>::const_iterator first_gauge(int i) const {
+        return std::lower_bound(gauges_.begin(), gauges_.end(), i,
+                                [](const Gauge& gauge, int particle) { return gauge.particle < particle; });
+    }
+    template <class Visit>
+    static void each_bond(const Model<2>& model, const Gauge& gauge, Visit&& visit) {
+        for (const auto& [b, s] : gauge.bonds) {
+            if (!model.bonds.is_intact(b)) continue;
+            const Vec<2> r0 = (model.bonds.first[b] == gauge.particle ? 1 : -1) * model.bond_vectors[b];
+            visit(model.bonds.other(b, gauge.particle), r0, s / r0.squaredNorm());
         }
-        return local;
     }
 
-    void remove(const Bonds& bonds, int bond) override {
-        bonds_.remove(bonds.first[bond], bonds.second[bond]);
-    }
-
- private:
     /// Of a particle at the border of a block: blocks hold whole chunks.
     static int chunk(int particle) { return (particle + kernel::lanes - 1) / kernel::lanes; }
     static int first_chunk(int block) { return chunk(block * parallel_block); }
@@ -147,6 +182,7 @@ class MomentMatched final : public ElasticLaw<2> {
     }
 
     mutable CompactBonds bonds_;  ///< keeps a copy of the displacements
+    std::vector<Gauge> gauges_;
     BlockOrder order_;
     const kernel::Loops& loops_;
     bool watches_;

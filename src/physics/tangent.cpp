@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "physics/dilatation.hpp"
-#include "physics/weights.hpp"
+#include "physics/elastic_coefficients.hpp"
 
 namespace hibi {
 
@@ -21,10 +20,11 @@ Mat<2> turn_and_stretch(double own, const Vec<2>& r0) {
 }  // namespace
 
 template <int Dim>
-Tangent<Dim>::Tangent(const Model<Dim>& model)
-    : list_(model, moment_matched_weights(model)),
-      volume_(model.particles.volume),
-      lambda_(dilatation_moduli(model)) {
+Tangent<Dim>::Tangent(const Model<Dim>& model) : Tangent(model, elastic_coefficients(model)) {}
+
+template <int Dim>
+Tangent<Dim>::Tangent(const Model<Dim>& model, ElasticCoefficients coefficients)
+    : list_(model, coefficients.s), volume_(model.particles.volume), lambda_(std::move(coefficients.lambda)) {
     static_assert(Dim == 2, "Z is plane");
     const int n = model.particles.count();
     two_mu_.resize(n);
