@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/hash.hpp"
+#include "elasticity/mixed_bonds.hpp"
 #include "loads/supports.hpp"
 
 namespace hibi {
@@ -28,15 +29,29 @@ std::vector<double> break_strains(const Model<Dim>& model, const Physics& physic
         return never;
     };
     const Bonds& bonds = model.bonds;
+    const std::vector<MixedBond> all_mixed = mixed_bonds(model);
+    auto mixed = all_mixed.begin();
     std::vector<double> strains(bonds.count(), never);
     for (int b = 0; b < bonds.count(); ++b) {
         const int i = bonds.first[b], j = bonds.second[b];
+        while (mixed != all_mixed.end() && mixed->bond < b) ++mixed;
         if ((safe(i) && safe(j)) || (gripped[i] && gripped[j])) continue;
-        const Material* weaker = &model.materials[particles.material[i]];
-        const Material* other = &model.materials[particles.material[j]];
         const double l0 = particles.spacing[i], length = bonds.rest_length[b];  // bonded bodies share l0
-        if (limit(*other, l0, length) < limit(*weaker, l0, length)) weaker = other;
-        strains[b] = limit(*weaker, l0, length);
+        const Material* weaker = nullptr;
+        const auto consider = [&](int k, double modulus) {
+            const Material& m = model.materials[k];
+            const double share = shear_modulus(m) / modulus;  // of the bond's strain over the material's
+            const double strain = limit(m, l0, length) * (m.break_strain ? share : std::sqrt(share));
+            if (weaker && !(strain < strains[b])) return;
+            weaker = &m;
+            strains[b] = strain;
+        };
+        if (mixed != all_mixed.end() && mixed->bond == b) {
+            for (const int k : mixed->materials) consider(k, mixed->modulus);
+        } else {
+            for (const int end : {i, j})
+                consider(particles.material[end], shear_modulus(model.materials[particles.material[end]]));
+        }
         if (weaker->weibull) {
             // Keyed by the two particles, so that the strength does not depend on how the bonds are numbered.
             const std::uint64_t key =

@@ -13,9 +13,14 @@ double fracture_strain(const Model<Dim>& model, const Material& material, double
 template <>
 double fracture_strain<2>(const Model<2>& model, const Material& material, double l0, double length);
 
-/// Strain at which every bond fails, infinite where it never does: the weaker of its two materials, scattered
-/// where they ask for it. Bonds between two particles held in every direction, or both in a no-fail grip,
-/// never fail.
+/// Strain at which every bond fails, infinite where it never does: that of the weaker of its materials,
+/// scattered where they ask for it. Bonds between two particles held in every direction, or both in a no-fail
+/// grip, never fail.
+///
+/// A mixed bond (mixed_bonds.hpp) strains more in its softer part than as a whole, mu_b / mu times. With a
+/// break strain it fails when that part reaches the strain: a thin layer breaks at the mean strain at which a
+/// thick one does. With a fracture energy it fails when it stores what a bond of that material would, since
+/// it is energy that a crack along the interface has to pay: at sqrt(mu / mu_b) times the material's strain.
 template <int Dim>
 std::vector<double> break_strains(const Model<Dim>& model, const Physics& physics);
 

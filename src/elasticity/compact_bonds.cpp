@@ -29,11 +29,12 @@ constexpr Limit<double> no_limit{never, -never};
 
 }  // namespace
 
-CompactBonds::CompactBonds(const Model<2>& model, const BondWeights& s, const std::vector<double>& lambda,
+CompactBonds::CompactBonds(const Model<2>& model, const ElasticCoefficients& coefficients,
                            const BreakLimits& limits)
     : watches_(!limits.upper.empty()), particles_(model.particles.count()) {
     const Particles<2>& particles = model.particles;
     const Bonds& bonds = model.bonds;
+    const BondWeights& s = coefficients.s;
     const int chunks = (particles_ + lanes - 1) / lanes;
     for (std::vector<double>* field :
          {&two_mu_, &lambda_, &volume_, &trace_, &ux_, &uy_, &diagonal_, &twist_})
@@ -41,7 +42,7 @@ CompactBonds::CompactBonds(const Model<2>& model, const BondWeights& s, const st
     std::fill(volume_.begin(), volume_.end(), 1);  // they are divided by
     for (int i = 0; i < particles_; ++i) {
         two_mu_[i + lanes] = 2 * shear_modulus(model.materials[particles.material[i]]);
-        lambda_[i + lanes] = lambda[i];
+        lambda_[i + lanes] = coefficients.lambda[i];
         volume_[i + lanes] = particles.volume[i];
     }
 

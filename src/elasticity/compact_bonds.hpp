@@ -5,8 +5,8 @@
 
 #include "model/model.hpp"
 #include "elasticity/bond_kernel.hpp"
+#include "elasticity/elastic_coefficients.hpp"
 #include "elasticity/elastic_law.hpp"
-#include "elasticity/weights.hpp"
 
 namespace hibi {
 
@@ -15,9 +15,8 @@ namespace hibi {
 /// once.
 class CompactBonds {
  public:
-    /// `lambda`: per particle (Pa). Without limits nothing is watched.
-    CompactBonds(const Model<2>& model, const BondWeights& s, const std::vector<double>& lambda,
-                 const BreakLimits& limits);
+    /// Without limits nothing is watched.
+    CompactBonds(const Model<2>& model, const ElasticCoefficients& coefficients, const BreakLimits& limits);
 
     /// Takes over the displacements of particles [begin, end).
     void read(const std::vector<Vec<2>>& displacement, int begin, int end);

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "elasticity/dilatation.hpp"
-#include "elasticity/weights.hpp"
+#include "elasticity/elastic_coefficients.hpp"
 
 namespace hibi {
 
@@ -22,9 +21,11 @@ Mat<2> turn_and_stretch(double own, const Vec<2>& r0) {
 
 template <int Dim>
 Tangent<Dim>::Tangent(const Model<Dim>& model, const State<Dim>& state)
-    : list_(model, moment_matched_weights(model)),
-      volume_(model.particles.volume),
-      lambda_(dilatation_moduli(model)) {
+    : Tangent(model, state, elastic_coefficients(model)) {}
+
+template <int Dim>
+Tangent<Dim>::Tangent(const Model<Dim>& model, const State<Dim>& state, ElasticCoefficients coefficients)
+    : list_(model, coefficients.s), volume_(model.particles.volume), lambda_(std::move(coefficients.lambda)) {
     static_assert(Dim == 2, "Z is plane");
     const int n = model.particles.count();
     two_mu_.resize(n);

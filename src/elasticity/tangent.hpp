@@ -5,6 +5,7 @@
 
 #include "model/model.hpp"
 #include "elasticity/bond_list.hpp"
+#include "elasticity/elastic_coefficients.hpp"
 
 namespace hibi {
 
@@ -34,6 +35,7 @@ class Tangent {
     const Eigen::SparseMatrix<double>& assemble(const std::vector<std::array<bool, 3>>& held);
 
  private:
+    Tangent(const Model<Dim>& model, const State<Dim>& state, ElasticCoefficients coefficients);
     void find_pattern();
 
     BondList<Dim> list_;

@@ -1,9 +1,10 @@
 #include "elasticity/weights.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "elasticity/mixed_bonds.hpp"
+#include "elasticity/moment_factors.hpp"
 
 namespace hibi {
 
@@ -20,71 +21,6 @@ double reference_number_density(double ratio) {
                     sum += weight(z == 0 ? std::hypot(x, y) : std::hypot(x, y, z), ratio);
     return sum;
 }
-
-namespace {
-
-/// Components of a symmetric matrix as a vector whose dot product is the matrix product's trace.
-template <int Dim>
-constexpr int symmetric_size = Dim*(Dim + 1) / 2;
-template <int Dim>
-using Symmetric = Eigen::Matrix<double, symmetric_size<Dim>, 1>;
-
-template <int Dim>
-Symmetric<Dim> dyad(const Vec<Dim>& n) {
-    Symmetric<Dim> v;
-    int k = 0;
-    for (int a = 0; a < Dim; ++a)
-        for (int b = a; b < Dim; ++b) v[k++] = (a == b ? 1.0 : std::sqrt(2.0)) * n[a] * n[b];
-    return v;
-}
-
-constexpr double smallest_factor = 0.1, largest_factor = 5, rank_tolerance = 1e-9;
-
-/// The factors g of one particle: n . B n, clamped. `share` is d w / n per bond.
-template <int Dim>
-std::vector<double> moment_factors(const std::vector<Vec<Dim>>& normals, const std::vector<double>& share) {
-    const std::size_t count = normals.size();
-    std::vector<Symmetric<Dim>> dyads(count);
-    for (std::size_t k = 0; k < count; ++k) dyads[k] = dyad<Dim>(normals[k]);
-    Symmetric<Dim> identity = Symmetric<Dim>::Zero();
-    for (int a = 0; a < Dim; ++a) identity += dyad<Dim>(Vec<Dim>::Unit(a));
-
-    std::vector<double> factor(count, 1.0);
-    std::vector<bool> frozen(count, false);
-    for (int pass = 0; pass < 5; ++pass) {
-        Eigen::Matrix<double, symmetric_size<Dim>, symmetric_size<Dim>> M;
-        M.setZero();
-        Symmetric<Dim> rest = identity;
-        for (std::size_t k = 0; k < count; ++k) {
-            if (frozen[k])
-                rest -= share[k] * factor[k] * dyads[k];
-            else
-                M += share[k] * dyads[k] * dyads[k].transpose();
-        }
-        // Pseudo-inverse: a row of particles, or a single bond, is matched in the subspace its bonds span.
-        const Eigen::SelfAdjointEigenSolver<decltype(M)> eigen(M);
-        const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
-        Symmetric<Dim> B = Symmetric<Dim>::Zero();
-        for (int k = 0; k < symmetric_size<Dim>; ++k) {
-            const double value = eigen.eigenvalues()[k];
-            if (value > rank_tolerance * largest)
-                B += eigen.eigenvectors().col(k) * (eigen.eigenvectors().col(k).dot(rest) / value);
-        }
-        bool clamped = false;
-        for (std::size_t k = 0; k < count; ++k) {
-            if (frozen[k]) continue;
-            factor[k] = dyads[k].dot(B);
-            if (factor[k] < smallest_factor || factor[k] > largest_factor) {
-                factor[k] = std::clamp(factor[k], smallest_factor, largest_factor);
-                frozen[k] = clamped = true;
-            }
-        }
-        if (!clamped) break;
-    }
-    return factor;
-}
-
-}  // namespace
 
 template <int Dim>
 BondWeights moment_matched_weights(const Model<Dim>& model) {
@@ -120,7 +56,7 @@ BondWeights moment_matched_weights(const Model<Dim>& model) {
                     density += share.back();
                 }
                 for (double& w : share) w *= Dim / density;
-                weights = moment_factors<Dim>(normals, share);
+                weights = moment_factors<Dim>(normals, share, identity<Dim>());
                 for (std::size_t k = 0; k < share.size(); ++k) weights[k] *= share[k];
                 std::swap(last, here);
             }
@@ -148,6 +84,12 @@ BondWeights thesis_weights(const Model<Dim>& model) {
             s.backward[b] = particles.volume[j] * Dim * w / n0;
         }
     });
+    const auto mu = [&](int i) { return shear_modulus(model.materials[particles.material[i]]); };
+    for (const MixedBond& mixed : mixed_bonds(model)) {
+        const int b = mixed.bond;
+        s.forward[b] *= 2 * mixed.first_length * mixed.modulus / mu(bonds.first[b]);
+        s.backward[b] *= 2 * (1 - mixed.first_length) * mixed.modulus / mu(bonds.second[b]);
+    }
     return s;
 }
 

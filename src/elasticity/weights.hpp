@@ -26,7 +26,8 @@ template <int Dim>
 BondWeights moment_matched_weights(const Model<Dim>& model);
 
 /// s_ij = V_i d w_ij / n0, as in the thesis: particles at a surface lack what their missing neighbours would
-/// carry.
+/// carry. Across an interface, of which the thesis has none, both sides act in series: times 2 f mu_b / mu_i
+/// (elastic_coefficients.hpp). Bonds turn by the mean angle of their ends, so that nothing more is needed.
 template <int Dim>
 BondWeights thesis_weights(const Model<Dim>& model);
 

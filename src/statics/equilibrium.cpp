@@ -22,6 +22,8 @@ constexpr int most_iterations = 12, most_iterations_when_new = 30;
 constexpr double first_shift = 1e-8, last_shift = 10, next_shift = 30;
 /// A displacement of this many times the body's extent is a flight, not a way to equilibrium.
 constexpr double flight = 10;
+/// Of the body's extent: a displacement that is none. Energies of much smaller ones underflow.
+constexpr double nothing = 1e-100;
 
 template <int Dim>
 double dot(const std::vector<Vec<Dim>>& a, const std::vector<Vec<Dim>>& b) {
@@ -59,6 +61,7 @@ Equilibrium<Dim>::Equilibrium(const Model<Dim>& model, ElasticLaw<Dim>& law, con
     }
     extent_ = (high - low).maxCoeff();
     const Eigen::SparseMatrix<double>& K = assemble(state);
+    least_force_ = nothing * extent_ * memory_.stiffness.norm();
     cholesky_.emplace(K);
     memory_.factorised = cholesky_->factorise(K);
     if (!memory_.factorised) refuse(0);
@@ -125,7 +128,7 @@ void Equilibrium<Dim>::balance(const State<Dim>& state, const std::vector<Vec<Di
         }
     }
     scale_ = std::sqrt(squares);
-    floor_ = 2 * std::numeric_limits<double>::epsilon() * std::sqrt(rounding);
+    floor_ = 2 * std::numeric_limits<double>::epsilon() * std::sqrt(rounding) + least_force_;
 }
 
 template <int Dim>
@@ -243,6 +246,7 @@ Settled Equilibrium<Dim>::find(State<Dim>& state, const StaticLoads<Dim>& loads,
     tangent_->update(state);
     law_.forces(state);
     balance(state, applied);
+    const double start_floor = floor_;
     if (!moved.empty()) {
         // The free particles follow at once, as they would in a linear body: held ones moved alone would tear
         // at their neighbours.
@@ -252,7 +256,7 @@ Settled Equilibrium<Dim>::find(State<Dim>& state, const StaticLoads<Dim>& loads,
         tangent_->multiply(motion, pull);
         for (int k = 0; k < Dim * n; ++k)
             if (!held_[k / Dim][k % Dim]) residual_[k] -= pull[k];
-        if (residual_.isZero(0))
+        if (residual_.norm() <= least_force_)
             step_.setZero(Dim * n);
         else if (!newton_step(state, 1e-6, settled.smooth))
             return give_up();
@@ -261,16 +265,25 @@ Settled Equilibrium<Dim>::find(State<Dim>& state, const StaticLoads<Dim>& loads,
         balance(state, applied);
         tangent_->update(state);
     }
-    double least = std::numeric_limits<double>::infinity();
-    int stalled = 0;
+    double least = std::numeric_limits<double>::infinity(), least_share = least;
+    int stalled = 0, share_stalled = 0;
     for (;; ++settled.newton_steps) {
         const double norm = residual_.norm();
         settled.residual = scale_ > 0 ? norm / scale_ : 0;
         if (!std::isfinite(norm)) return give_up();
         stalled = norm < 0.5 * least ? 0 : stalled + 1;
         least = std::min(least, norm);
+        // Without loads the reactions fall with the residual, from step to step, without end: the search ends
+        // where all of them are what rounding leaves of the forces at its start, and keep their ratio.
+        if (std::max(norm, scale_) <= start_floor) {
+            share_stalled = settled.residual < 0.5 * least_share ? 0 : share_stalled + 1;
+            least_share = std::min(least_share, settled.residual);
+        }
+        const bool at_rest = share_stalled > 2;
+        if (at_rest) settled.residual = 0;
         // What no longer shrinks and is small has met rounding in a way that the floor does not foresee.
-        if (norm <= std::max(tolerance * scale_, floor_) || (stalled > 2 && norm <= 1e3 * tolerance * scale_))
+        if (at_rest || norm <= std::max(tolerance * scale_, floor_) ||
+            (stalled > 2 && norm <= 1e3 * tolerance * scale_))
             break;
         if (settled.newton_steps == most_newton_steps) return give_up();
         const double share = std::min(1.0, norm / scale_);

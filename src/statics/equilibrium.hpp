@@ -19,7 +19,8 @@ struct Settled {
     bool senseless = false;  ///< not found where the body keeps within what a linear law can stand for
     bool smooth = true;      ///< no tangent on the way was indefinite: the body did not snap to another shape
     int newton_steps = 0;
-    double residual = 0;  ///< out-of-balance force over the applied and reaction forces [-]
+    double residual = 0;  ///< out-of-balance force over the applied and reaction forces [-]; 0 where all of
+                          ///< them are rounding
     int gave_way = -1;    ///< where no equilibrium was found: the particle that had gone farthest by then
 
     /// An equilibrium that the slightest disturbance destroys.
@@ -105,6 +106,7 @@ class Equilibrium {
     std::optional<Cholesky> cholesky_;
     Memory memory_;
     double extent_ = 0;                ///< of all bodies together (m)
+    double least_force_ = 0;           ///< below it a force is none (N)
     Eigen::VectorXd residual_, step_;  ///< out-of-balance forces (N), 0 where held; Newton step (m)
     double scale_ = 0, floor_ = 0;     ///< applied and reaction forces; what rounding leaves of them (N)
     double largest_potential_ = 0;     ///< of the parts of the last energies compared (J)

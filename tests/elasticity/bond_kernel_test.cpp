@@ -60,7 +60,7 @@ double largest(const std::vector<Vec<2>>& vectors) {
 class Loops : public testing::TestWithParam<Case> {
  protected:
     Model<2> model_ = build(GetParam());
-    BondWeights weights_ = moment_matched_weights(model_);
+    ElasticCoefficients coefficients_ = elastic_coefficients(model_);
 
     /// Forces of the loops and of the plain loop on the disturbed body, before and after breaks.
     template <class Compare>
@@ -69,13 +69,13 @@ class Loops : public testing::TestWithParam<Case> {
         test::turn_and_shake(model_, 0.7, 0.05);
         law->forces(model_);
         ASSERT_GT(largest(model_.particles.force), 0);
-        compare(model_.particles.force, test::plain_forces(model_, weights_));
+        compare(model_.particles.force, test::plain_forces(model_, coefficients_));
         for (int b = 0; b < model_.bonds.count(); b += 41) {
             model_.bonds.broken_at[b] = 1;
             law->remove(model_.bonds, b);
         }
         law->forces(model_);
-        compare(model_.particles.force, test::plain_forces(model_, weights_));
+        compare(model_.particles.force, test::plain_forces(model_, coefficients_));
     }
 };
 
@@ -167,7 +167,7 @@ TEST(Loops, RenewedAfterBreaksAreThoseOfTheWholeBody) {
     Material m = test::concrete();
     m.break_strain = 0.02;
     Model<2> model = test::plate(100, 60, 1, m);  // six blocks
-    const BondWeights weights = moment_matched_weights(model);
+    const ElasticCoefficients coefficients = elastic_coefficients(model);
     for (int i = 0; i < model.particles.count(); ++i)
         model.particles.velocity[i].y() = model.particles.reference_position[i].x() < 30 ? 20 : 0;
     Simulation<2> simulation(model, {});
@@ -176,7 +176,8 @@ TEST(Loops, RenewedAfterBreaksAreThoseOfTheWholeBody) {
         simulation.step();
         if (simulation.just_broken().empty()) continue;
         ++breaking_steps;
-        EXPECT_TRUE(simulation.model().particles.force == test::plain_forces(simulation.model(), weights));
+        EXPECT_TRUE(simulation.model().particles.force ==
+                    test::plain_forces(simulation.model(), coefficients));
     }
     EXPECT_EQ(breaking_steps, 20);
 }

@@ -1,17 +1,17 @@
 #pragma once
-#include "elasticity/dilatation.hpp"
+#include "elasticity/elastic_coefficients.hpp"
 #include "elasticity/elastic_law.hpp"
-#include "elasticity/weights.hpp"
 
 namespace hibi::test {
 
 /// The judge of the fast loops: forces of the moment-matched law by one plain loop over the bonds of each
 /// particle, straight from the model and in the order that the fast loops promise to keep.
 ///     f_i = sum_j [ spring du + (s_ij P_i + s_ji P_j) r0 / |r0|^2 ],  P = -2 mu (R - I) + lambda D R
-inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const BondWeights& s) {
+inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const ElasticCoefficients& coefficients) {
     const Particles<2>& particles = model.particles;
     const Bonds& bonds = model.bonds;
-    const std::vector<double> lambda = dilatation_moduli(model);
+    const BondWeights& s = coefficients.s;
+    const std::vector<double>& lambda = coefficients.lambda;
     const auto two_mu = [&](int i) { return 2 * shear_modulus(model.materials[particles.material[i]]); };
     struct Seen {
         int j;
