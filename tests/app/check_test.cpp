@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/new.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/everything.hpp"
 #include "support/temporary_folder.hpp"
