@@ -117,7 +117,8 @@ std::optional<std::int64_t> BlockReader::integer(const std::string& key) {
     constexpr double exact = 9007199254740992;  // 2^53: beyond it a double skips whole numbers
     if (*number != std::round(*number) || std::abs(*number) > exact) {
         context_.problems.add(path(key), value->place,
-                              fmt::format("{} needs a whole number; found {}", label(key), *number), hint(key));
+                              fmt::format("{} needs a whole number; found {}", label(key), *number),
+                              hint(key));
         return {};
     }
     return static_cast<std::int64_t>(*number);
@@ -295,7 +296,9 @@ std::optional<Selection> BlockReader::condition(const std::string& key) {
     }
     Selection selection;
     selection.text = formula->text();
-    selection.condition = [formula = *formula](const Vec3& X) { return formula(X, 0) != 0; };
+    selection.condition = [formula = *formula](const Vec3& X, double slack) {
+        return formula.holds(X, slack);
+    };
     return selection;
 }
 
