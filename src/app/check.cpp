@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -47,6 +48,13 @@ std::string moment_text(const Moment& moment) {
 
 std::string value_text(const Field& field, const std::string& unit) {
     return field.is_constant() ? si(field(Vec3::Zero(), 0), unit) : field.text();
+}
+
+/// How far the particles' centre of mass lies from the centroid of the shape.
+std::string centre_text(const Vec<2>& error, double spacing) {
+    if (error.norm() < 0.005 * spacing) return "";
+    return fmt::format(", centre of mass off by ({:.2f}, {:.2f}) spacings", error.x() / spacing,
+                       error.y() / spacing);
 }
 
 std::string load_text(const LoadSpec& spec, const Load& load) {
@@ -186,15 +194,21 @@ void print_report(const Scene& scene, const Built<2>& built, const Simulation& s
     for (const Parameter& p : scene.params) row("parameter", fmt::format("{} = {}", p.name, p.text));
     row("particles", fmt::format("{}", model.particles.count()));
     row("bonds",
-        fmt::format("{}{}", model.bonds.count(),
-                    scene.notches.empty() ? "" : fmt::format(", and {} cut by notches", model.bonds_cut)));
+        fmt::format(
+            "{}{}{}", model.bonds.count(),
+            scene.notches.empty() ? "" : fmt::format(", and {} cut by notches", model.bonds_cut),
+            model.bonds_over_gaps == 0
+                ? ""
+                : fmt::format(", and {} not made, for they would cross empty space", model.bonds_over_gaps)));
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
         const Body<2>& body = model.bodies[b];
         double mass = 0;
         for (int i = body.begin; i < body.end; ++i) mass += model.particles.mass[i];
-        row("body", fmt::format("{}: {}, {} particles of {}, {:.4g} kg; area and mass {:+.2f} %", body.name,
-                                model.materials[body.material].name, body.end - body.begin,
-                                si(body.spacing, "m"), mass, 100 * built.lattice_area_error[b] + 0.0));
+        row("body",
+            fmt::format("{}: {}, {} particles of {}, {:.4g} kg; area and mass {:+.2f} %{}", body.name,
+                        model.materials[body.material].name, body.end - body.begin, si(body.spacing, "m"),
+                        mass, std::round(1e4 * built.lattice_area_error[b]) / 100 + 0.0,
+                        centre_text(built.lattice_centre_error[b], body.spacing)));
     }
     for (const Hold& hold : built.physics.holds)
         row("support", fmt::format("{}: {} particles held in {}", hold.name, hold.particles.size(),
@@ -247,11 +261,13 @@ void print_json(const Scene& scene, const Built<2>& built, const Simulation& sim
                  loads = ordered_json::array();
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
         const Body<2>& body = model.bodies[b];
-        bodies.push_back({{"name", body.name},
-                          {"material", model.materials[body.material].name},
-                          {"particles", body.end - body.begin},
-                          {"spacing", body.spacing},
-                          {"area_error", built.lattice_area_error[b]}});
+        bodies.push_back(
+            {{"name", body.name},
+             {"material", model.materials[body.material].name},
+             {"particles", body.end - body.begin},
+             {"spacing", body.spacing},
+             {"area_error", built.lattice_area_error[b]},
+             {"centre_error", {built.lattice_centre_error[b].x(), built.lattice_centre_error[b].y()}}});
     }
     for (const Hold& hold : built.physics.holds)
         supports.push_back({{"name", hold.name}, {"particles", hold.particles.size()}});
@@ -266,6 +282,7 @@ void print_json(const Scene& scene, const Built<2>& built, const Simulation& sim
          {{"particles", model.particles.count()},
           {"bonds", model.bonds.count()},
           {"bonds_cut", model.bonds_cut},
+          {"bonds_over_gaps", model.bonds_over_gaps},
           {"frames", scene.movie.frames()}}},
         {"bodies", bodies},
         {"supports", supports},

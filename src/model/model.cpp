@@ -4,18 +4,18 @@
 #include <cmath>
 #include <map>
 
+#include "model/matter.hpp"
+
 namespace hibi {
 
 namespace {
 
 double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Do the closed segments ab and cd meet? Touching counts, to within 1e-9 of the longer one: a notch drawn
-/// along a row of particles must not depend on rounding.
-bool segments_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d) {
+/// Do the closed segments ab and cd meet? Touching counts, to within `tolerance` (m): a notch drawn along a
+/// row of particles must not depend on rounding.
+bool segments_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& d, double tolerance) {
     const Vec<2> ab = b - a, cd = d - c, ac = c - a;
-    const double scale = std::max(ab.norm(), cd.norm());
-    const double tolerance = 1e-9 * scale;
     // Most are far apart.
     if ((a.cwiseMax(b).array() < c.cwiseMin(d).array() - tolerance).any() ||
         (c.cwiseMax(d).array() < a.cwiseMin(b).array() - tolerance).any())
@@ -33,9 +33,9 @@ bool segments_meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<
     return std::max(s0, s1) >= -slack && std::min(s0, s1) <= 1 + slack;
 }
 
-bool crosses(const Notch<2>& notch, const Vec<2>& a, const Vec<2>& b) {
+bool crosses(const Notch<2>& notch, const Vec<2>& a, const Vec<2>& b, double tolerance) {
     for (std::size_t k = 1; k < notch.points.size(); ++k)
-        if (segments_meet(a, b, notch.points[k - 1], notch.points[k])) return true;
+        if (segments_meet(a, b, notch.points[k - 1], notch.points[k], tolerance)) return true;
     return false;
 }
 
@@ -79,11 +79,48 @@ class BondKinds {
     int last_kind_ = -1;
 };
 
+/// Of the centres that would fill a body, those on its sides where an earlier body has a particle on a side
+/// of its own: two bodies with a common side through the centres of one lattice share it.
+template <int Dim>
+std::vector<char> taken(const Model<Dim>& model, const Body<Dim>& body,
+                        const std::vector<Vec<Dim>>& centres) {
+    const double slack = slack_per_spacing * body.spacing;
+    const auto on_side = [&](const Body<Dim>& of, const Vec<Dim>& X) {
+        return std::abs(depth(of.shape, X)) <= slack;
+    };
+    std::vector<char> result(centres.size(), 0);
+    if (model.bodies.empty()) return result;
+    std::vector<std::size_t> candidates;
+    for (std::size_t k = 0; k < centres.size(); ++k)
+        if (on_side(body, centres[k])) candidates.push_back(k);
+    if (candidates.empty()) return result;
+    for (const Body<Dim>& earlier : model.bodies)
+        for (int i = earlier.begin; i < earlier.end; ++i) {
+            const Vec<Dim>& X = model.cell_centre(i);
+            if (!on_side(body, X) || !on_side(earlier, X)) continue;
+            for (const std::size_t k : candidates)
+                if ((centres[k] - X).norm() <= 2 * slack) result[k] = 1;
+        }
+    return result;
+}
+
 }  // namespace
 
 template <int Dim>
 void add_body(Model<Dim>& model, Body<Dim> body) {
-    const std::vector<Vec<Dim>> points = fill(body.shape, body.spacing, body.lattice);
+    std::vector<Vec<Dim>> points = fill(body.shape, body.spacing, body.lattice);
+    Lattice undisturbed = body.lattice;
+    undisturbed.jitter = 0;
+    std::vector<Vec<Dim>> centres =
+        body.lattice.jitter == 0 ? points : fill(body.shape, body.spacing, undisturbed);
+    const std::vector<char> is_taken = taken(model, body, centres);
+    const auto leave_out = [&](std::vector<Vec<Dim>>& list) {
+        std::size_t k = 0;
+        std::erase_if(list, [&](const Vec<Dim>&) { return is_taken[k++] != 0; });
+    };
+    leave_out(points);
+    leave_out(centres);
+    if (body.lattice.jitter > 0) body.undisturbed = std::move(centres);
     Particles<Dim>& particles = model.particles;
     body.begin = particles.count();
     body.end = body.begin + static_cast<int>(points.size());
@@ -129,7 +166,7 @@ std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notch
 
     std::vector<int> cut(notches.size(), 0);
     std::vector<std::pair<int, int>> pairs;
-    model.bonds_cut = 0;
+    model.bonds_cut = model.bonds_over_gaps = 0;
     for (std::size_t g = 0; g < group.size(); ++g) {
         std::vector<int> members;
         for (int i = 0; i < particles.count(); ++i)
@@ -138,20 +175,27 @@ std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notch
         std::vector<Vec<Dim>> points;
         points.reserve(members.size());
         for (const int i : members) points.push_back(X[i]);
-        for (const auto& [a, b] : neighbours(points, model.influence * particles.spacing[members.front()])) {
+        std::vector<int> bodies;
+        for (std::size_t b = 0; b < group.size(); ++b)
+            if (group[b] == static_cast<int>(g)) bodies.push_back(static_cast<int>(b));
+        const Matter<Dim> matter(model, bodies);
+        const double spacing = particles.spacing[members.front()], slack = slack_per_spacing * spacing;
+        for (const auto& [a, b] : neighbours(points, model.influence * spacing)) {
             const int i = members[a], j = members[b];
             if (!joined(particles.body[i], particles.body[j])) continue;
             bool is_cut = false;
             for (std::size_t k = 0; k < notches.size(); ++k) {
                 const int only = notches[k].body;
                 if (only >= 0 && only != particles.body[i] && only != particles.body[j]) continue;
-                if (crosses(notches[k], X[i], X[j])) {
+                if (crosses(notches[k], X[i], X[j], slack)) {
                     ++cut[k];
                     is_cut = true;
                 }
             }
             if (is_cut)
                 ++model.bonds_cut;
+            else if (!matter.joins(i, j))
+                ++model.bonds_over_gaps;
             else
                 pairs.push_back({i, j});
         }

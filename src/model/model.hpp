@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "model/bonds.hpp"
+#include "model/fill.hpp"
 #include "model/material.hpp"
 #include "model/particles.hpp"
-#include "model/shape.hpp"
 
 namespace hibi {
 
@@ -28,6 +28,7 @@ struct Body {
     std::vector<int>
         bonded_to{};         ///< bodies with a lower index and the same spacing that bonds reach across to
     int begin = 0, end = 0;  ///< its particles, once filled
+    std::vector<Vec<Dim>> undisturbed{};  ///< where the particles were before the jitter; empty without one
 };
 
 /// What never changes in a run: particles, bonds and materials. What changes is in State.
@@ -39,18 +40,26 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Body<Dim>> bodies;
     Assumption assumption = Assumption::plane_stress;
-    double thickness = 1;    ///< of a 2-D body (m)
-    double influence = 2.1;  ///< r_e / l0 [-]
-    int bonds_cut = 0;       ///< removed by notches before the run
+    double thickness = 1;     ///< of a 2-D body (m)
+    double influence = 2.1;   ///< r_e / l0 [-]
+    int bonds_cut = 0;        ///< removed by notches before the run
+    int bonds_over_gaps = 0;  ///< not made, for they would cross empty space
+
+    /// Centre of the cell that a particle stands for: where it is but for jitter.
+    const Vec<Dim>& cell_centre(int i) const {
+        const Body<Dim>& body = bodies[particles.body[i]];
+        return body.undisturbed.empty() ? particles.reference_position[i] : body.undisturbed[i - body.begin];
+    }
 };
 
-/// Appends the particles of a body at rest, and sets its begin and end.
+/// Appends the particles of a body at rest, and sets its begin and end. A cell that an earlier body has
+/// already, centre on centre on a side of both, is left to that one.
 template <int Dim>
 void add_body(Model<Dim>& model, Body<Dim> body);
 
 /// Finds all bonds: pairs of one body, or of bodies bonded to each other, nearer than influence * l0 in the
-/// reference configuration and not cut by a notch. Replaces model.bonds and model.bond_vectors.
-/// Returns, for every notch, the number of bonds it cut.
+/// reference configuration, with matter all the way between them (Matter), and not cut by a notch. Replaces
+/// model.bonds and model.bond_vectors. Returns, for every notch, the number of bonds it cut.
 template <int Dim>
 std::vector<int> connect(Model<Dim>& model, const std::vector<Notch<Dim>>& notches);
 

@@ -1,9 +1,10 @@
 #pragma once
-#include <cstdint>
 #include <variant>
 #include <vector>
 
 #include "base/vec.hpp"
+#include "model/polygon.hpp"
+#include "model/span.hpp"
 
 namespace hibi {
 
@@ -22,10 +23,6 @@ struct Ring {
     Vec<Dim> centre;
     double inner = 0, outer = 0;  ///< radii (m)
 };
-/// A simple closed polygon, either way round; the last corner joins the first.
-struct Polygon {
-    std::vector<Vec<2>> corners;
-};
 template <int Dim>
 struct Shape;
 /// The first shape less all the others.
@@ -38,31 +35,34 @@ struct Shape {
     std::variant<Box<Dim>, Disc<Dim>, Ring<Dim>, Polygon, Difference<Dim>> form;
 };
 
+/// A point nearer to a side than this part of the spacing lies on it: rounding must not decide on which side
+/// a particle falls. All shapes, selections, notches and bonds go by it.
+inline constexpr double slack_per_spacing = 1e-6;
+
+/// The sides belong to the shape: a point outside of it by no more than `slack` (m) is inside; where the
+/// slack is negative, it must be inside by that much. What a difference takes away takes its sides along, so
+/// that a body fits into the hole that was cut for it.
 template <int Dim>
-bool inside(const Shape<Dim>& shape, const Vec<Dim>& X);
+bool inside(const Shape<Dim>& shape, const Vec<Dim>& X, double slack = 0);
+/// Distance to the nearest side, negative outside (m). Of a difference it may be too small, never too large.
+template <int Dim>
+double depth(const Shape<Dim>& shape, const Vec<Dim>& X);
 template <int Dim>
 Box<Dim> bounding_box(const Shape<Dim>& shape);
-/// Area (2-D, m^2) or volume (3-D, m^3); of a Difference to about 0.1 %.
+/// The straight way between any two of its points lies in it.
 template <int Dim>
-double measure(const Shape<Dim>& shape);
+bool is_convex(const Shape<Dim>& shape);
+/// The parts of the segment from `p` to `q` that are inside the shape by the same slack.
+template <int Dim>
+Spans spans(const Shape<Dim>& shape, const Vec<Dim>& p, const Vec<Dim>& q, double slack = 0);
 
-/// How the particles of a body are arranged: square cells, turned, then disturbed.
-struct Lattice {
-    double angle = 0;  ///< from the x axis to the rows, counter-clockwise (rad)
-    double jitter =
-        0;  ///< each particle is moved by up to this many spacings, either way, along x and along y
-    std::uint64_t seed = 1;  ///< of the jitter
-
-    bool is_turned() const { return angle != 0; }
-    bool operator==(const Lattice&) const = default;
+template <int Dim>
+struct Content {
+    double measure = 0;                    ///< area (2-D, m^2) or volume (3-D, m^3)
+    Vec<Dim> centroid = Vec<Dim>::Zero();  ///< (m)
 };
-
-/// Centres of the lattice cells of size `spacing` that lie inside the shape, row by row, each row of a box
-/// beginning half a spacing inside. Discs and rings are filled symmetrically about their centre, polygons
-/// from the low corner of their bounding box, a difference like its first shape. A turned lattice is turned
-/// about the corner of a cell next to the middle of the bounding box. Jitter is added afterwards, keyed by
-/// the cell: it depends on no order, and moves nothing into the body or out of it.
+/// Exact but for rounding; of a difference to about a millionth of the size of its first shape.
 template <int Dim>
-std::vector<Vec<Dim>> fill(const Shape<Dim>& shape, double spacing, const Lattice& lattice = {});
+Content<Dim> content(const Shape<Dim>& shape);
 
 }  // namespace hibi

@@ -313,7 +313,9 @@ std::optional<Selection> BlockReader::condition(const std::string& key) {
     }
     Selection selection;
     selection.text = formula->text();
-    selection.condition = [formula = *formula](const Vec3& X) { return formula(X, 0) != 0; };
+    selection.condition = [formula = *formula](const Vec3& X, double slack) {
+        return formula.holds(X, slack);
+    };
     return selection;
 }
 

@@ -42,15 +42,15 @@ bool boxes_overlap(const Box<2>& a, const Box<2>& b, double slack) {
 
 /// Bodies of which one holds particles of the other, or, of boxes, that overlap at all.
 bool overlap(const Model<2>& model, const Body<2>& a, const Body<2>& b) {
-    const double slack = 1e-6 * std::min(a.spacing, b.spacing);
+    const double slack = slack_per_spacing * std::min(a.spacing, b.spacing);
     if (!boxes_overlap(bounding_box(a.shape), bounding_box(b.shape), slack)) return false;
     if (std::holds_alternative<Box<2>>(a.shape.form) && std::holds_alternative<Box<2>>(b.shape.form))
         return true;
     const auto& X = model.particles.reference_position;
     for (int i = a.begin; i < a.end; ++i)
-        if (inside(b.shape, X[i])) return true;
+        if (inside(b.shape, X[i], -slack)) return true;
     for (int i = b.begin; i < b.end; ++i)
-        if (inside(a.shape, X[i])) return true;
+        if (inside(a.shape, X[i], -slack)) return true;
     return false;
 }
 
@@ -87,7 +87,12 @@ bool add_bodies(const Scene& scene, Built<2>& built, Problems& problems) {
                                      (box.high - box.low).x(), (box.high - box.low).y(), body.spacing));
             fine = false;
         }
-        built.lattice_area_error.push_back(count * added.spacing * added.spacing / measure(spec.shape) - 1);
+        const Content<2> whole = content(spec.shape);
+        Vec<2> centre = Vec<2>::Zero();
+        for (int i = added.begin; i < added.end; ++i)
+            centre += built.model.particles.reference_position[i] - whole.centroid;
+        built.lattice_area_error.push_back(count * added.spacing * added.spacing / whole.measure - 1);
+        built.lattice_centre_error.push_back(centre / std::max(1, count));
         for (std::size_t a = 0; fine && a < b; ++a)
             if (overlap(built.model, built.model.bodies[a], added))
                 problems.add(path,

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "scene/load_direction.hpp"
+
 namespace hibi {
 
 std::vector<int> select(const Model<2>& model, const Selection& selection, const std::string& path,
                         const std::string& block, Problems& problems) {
     std::vector<int> particles;
     for (int i = 0; i < model.particles.count(); ++i)
-        if (selection(to_3d<2>(model.particles.reference_position[i]), model.particles.body[i]))
+        if (selection(to_3d<2>(model.particles.reference_position[i]), model.particles.spacing[i],
+                      model.particles.body[i]))
             particles.push_back(i);
     if (!particles.empty()) return particles;
     Vec<2> low = Vec<2>::Constant(INFINITY), high = -low;
@@ -45,26 +48,12 @@ void select_face(const Model<2>& model, const std::vector<Vec<2>>& areas, const 
     const auto& box = std::get<Box<2>>(body.shape.form);
     const double depth =
         std::min(2 * model.influence * body.spacing, std::abs((box.high - box.low).dot(outward)) / 2);
+    const double slack = slack_per_spacing * body.spacing;
     for (int i = body.begin; i < body.end; ++i) {
-        if (depth_behind(body, face, model.particles.reference_position[i]) >= depth) continue;
+        if (depth_behind(body, face, model.particles.reference_position[i]) >= depth - slack) continue;
         load.particles.push_back(i);
         share.push_back(areas[i].dot(outward));
     }
-}
-
-/// Total of a load at full ramp: what it is reported along. Zero where it has none.
-Vec3 resultant(const Model<2>& model, const Load& load, double time) {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < load.particles.size(); ++k) {
-        const Vec3 X = to_3d<2>(model.particles.reference_position[load.particles[k]]);
-        if (load.kind == Load::Kind::pressure)
-            sum -= load.value[0](X, time) * load.share[k];
-        else
-            for (int axis = 0; axis < 2; ++axis)
-                sum[axis] +=
-                    (load.kind == Load::Kind::force ? load.share[k].x() : 1.0) * load.value[axis](X, time);
-    }
-    return sum;
 }
 
 /// Reports a value that is not finite somewhere on its particles, at one of a few times.
@@ -128,13 +117,10 @@ Load make_load(const Scene& scene, const Model<2>& model, const LoadSpec& spec, 
                               Vec3(1.0 / static_cast<double>(load.particles.size()), 0, 0));
     }
     check_finite(model, load, scene.run.max_time, path, problems);
-    const Vec3 total = resultant(model, load, load.ramp.duration);
-    double gross = 0;  // of a pressure all round only rounding is left: that is no direction
-    if (load.kind == Load::Kind::pressure)
-        for (const Vec3& A : load.share) gross += A.norm();
-    const double value = std::abs(load.value[0](Vec3::Zero(), load.ramp.duration));
-    if (total.allFinite() && total.norm() > 1e-9 * gross * value)
-        load.direction = total.normalized();
+    const double end = spec.until && !spec.until->event ? std::min(spec.until->offset, scene.run.max_time)
+                                                        : scene.run.max_time;
+    if (const auto direction = load_direction(model, load, end))
+        load.direction = *direction;
     else if (!spec.face)
         load.direction = !load.driven[0] && load.driven[1] ? Vec3::UnitY() : Vec3::UnitX();
     return load;

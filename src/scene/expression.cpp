@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hibi {
@@ -65,6 +66,37 @@ double run(const Program& program, const Vec3& X, double t) {
     return stack[0];
 }
 
+/// A point and its neighbours along the axes.
+constexpr int places = 7;
+using Values = std::array<double, places>;
+
+/// As run, at all places at once. A comparison has one answer for all of them: `<=` and `>=` hold where they
+/// do at any of them, `<` and `>` where they do at all.
+Values run(const Program& program, const std::array<Vec3, places>& X) {
+    std::array<Values, largest_stack> stack;
+    int top = -1;
+    for (const Instruction& instruction : program) {
+        const Operator& o = operator_of(instruction.op);
+        if (o.operands == 0) {
+            Values& values = stack[++top];
+            for (int k = 0; k < places; ++k)
+                values[k] = instruction.op == Op::constant ? instruction.value
+                            : instruction.op == Op::t      ? 0
+                                                           : X[k][static_cast<int>(instruction.op) - 1];
+            continue;
+        }
+        if (o.operands == 2) --top;
+        Values& values = stack[top];
+        for (int k = 0; k < places; ++k)
+            values[k] = o.apply(values[k], o.operands == 2 ? stack[top + 1][k] : 0);
+        if (instruction.op == Op::less_equal || instruction.op == Op::greater_equal)
+            values.fill(*std::max_element(values.begin(), values.end()));
+        if (instruction.op == Op::less || instruction.op == Op::greater)
+            values.fill(*std::min_element(values.begin(), values.end()));
+    }
+    return stack[0];
+}
+
 /// A unit would run into what follows, so it stands in parentheses within products; and so does a sign.
 int rank_of_constant(const Instruction& constant) {
     return !constant.dimension.is_plain() ? 6 : std::signbit(constant.value) ? 8 : 11;
@@ -91,6 +123,16 @@ Expression::Expression(const std::string& text, const Names& names) {
 }
 
 double Expression::operator()(const Vec3& X, double t) const { return run(*program_, X, t); }
+
+bool Expression::holds(const Vec3& X, double slack) const {
+    std::array<Vec3, places> around;
+    around.fill(X);
+    for (int axis = 0; axis < 3; ++axis) {
+        around[1 + 2 * axis][axis] -= slack;
+        around[2 + 2 * axis][axis] += slack;
+    }
+    return run(*program_, around)[0] != 0;
+}
 
 Field Expression::field() const {
     if (is_constant()) return Field(run(*program_, Vec3::Zero(), 0));

@@ -47,6 +47,9 @@ class Expression {
     bool is_bare_number() const { return bare_number_; }
     bool is_constant() const { return !in_space_ && !in_time_; }
     double operator()(const Vec3& X, double t) const;
+    /// Of a condition: is it met at X? What is compared counts as equal where a move of X by `slack` (m)
+    /// along an axis would turn the comparison: then <= and >= hold, < and > do not, whatever the rounding.
+    bool holds(const Vec3& X, double slack) const;
     /// The value in SI units as a field; its text is text().
     Field field() const;
     /// The same formula with every constant part, parameters included, as one number in SI units.

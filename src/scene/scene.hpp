@@ -19,12 +19,13 @@ namespace hibi {
 
 /// A `where` of the scene: a condition on the reference position, and perhaps one body.
 struct Selection {
-    std::string text;                                ///< as written; empty: everything
-    std::function<bool(const Vec3& X)> condition{};  ///< empty: everything
-    int body = -1;                                   ///< index of a body, or -1 for all
+    std::string text;  ///< as written; empty: everything
+    /// Is it met at X, to within a slack (m)? Empty: everything.
+    std::function<bool(const Vec3& X, double slack)> condition{};
+    int body = -1;  ///< index of a body, or -1 for all
 
-    bool operator()(const Vec3& X, int its_body) const {
-        return (body < 0 || body == its_body) && (!condition || condition(X));
+    bool operator()(const Vec3& X, double spacing, int its_body) const {
+        return (body < 0 || body == its_body) && (!condition || condition(X, slack_per_spacing * spacing));
     }
 };
 
@@ -170,8 +171,10 @@ struct Built {
     Model<Dim> model;
     Physics physics;
     std::vector<std::array<Vec3, 2>> notches;  ///< segments, for drawing
-    std::vector<double>
-        lattice_area_error;  ///< per body: area of its particles over area of its shape, minus 1
+    /// Per body: area of its particles over area of its shape, minus 1.
+    std::vector<double> lattice_area_error;
+    /// Per body: from the centroid of its shape to the centre of mass of its particles (m).
+    std::vector<Vec<Dim>> lattice_centre_error;
 };
 
 }  // namespace hibi

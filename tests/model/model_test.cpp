@@ -28,23 +28,23 @@ TEST(Fill, DiscAndRingAreSymmetricAndHaveAboutTheirArea) {
         Vec<2> sum = Vec<2>::Zero();
         for (const Vec<2>& p : points) sum += p - Vec<2>(3, -1);
         EXPECT_LE(sum.norm(), 1e-9);
-        EXPECT_NEAR(0.01 * static_cast<double>(points.size()) / measure(shape), 1, 0.02);
+        EXPECT_NEAR(0.01 * static_cast<double>(points.size()) / content(shape).measure, 1, 0.02);
     }
-    EXPECT_DOUBLE_EQ(measure(ring), 3 * std::numbers::pi);
+    EXPECT_DOUBLE_EQ(content(ring).measure, 3 * std::numbers::pi);
 }
 
 TEST(Fill, PolygonEitherWayRoundAndDifference) {
     const Shape<2> triangle{Polygon{{{0, 0}, {4, 0}, {0, 3}}}};
     const Shape<2> reversed{Polygon{{{0, 3}, {4, 0}, {0, 0}}}};
-    EXPECT_DOUBLE_EQ(measure(triangle), 6);
-    EXPECT_DOUBLE_EQ(measure(reversed), 6);
+    EXPECT_DOUBLE_EQ(content(triangle).measure, 6);
+    EXPECT_DOUBLE_EQ(content(reversed).measure, 6);
     EXPECT_EQ(fill<2>(triangle, 0.1).size(), fill<2>(reversed, 0.1).size());
     EXPECT_NEAR(0.01 * static_cast<double>(fill<2>(triangle, 0.1).size()), 6, 0.2);
     const Shape<2> holed{Difference<2>{{Shape<2>{Box<2>{{0, 0}, {4, 4}}}, Shape<2>{Disc<2>{{2, 2}, 1}}}}};
-    EXPECT_NEAR(measure(holed) / (16 - std::numbers::pi), 1, 1e-3);
+    EXPECT_NEAR(content(holed).measure / (16 - std::numbers::pi), 1, 1e-3);
     // The upper half of a ring: the box that is taken away is larger than what it takes.
     const Shape<2> arch{Difference<2>{{Shape<2>{Ring<2>{{0, 0}, 4, 5}}, Shape<2>{Box<2>{{-9, -9}, {9, 0}}}}}};
-    EXPECT_NEAR(measure(arch) / (4.5 * std::numbers::pi), 1, 1e-3);
+    EXPECT_NEAR(content(arch).measure / (4.5 * std::numbers::pi), 1, 1e-3);
     EXPECT_FALSE(inside<2>(holed, {2, 2}));
     EXPECT_TRUE(inside<2>(holed, {0.5, 0.5}));
     for (const Vec<2>& p : fill<2>(holed, 0.25)) EXPECT_GT((p - Vec<2>(2, 2)).norm(), 1);
@@ -74,7 +74,7 @@ TEST(Fill, ATurnedLatticeCoversTheAreaAndKeepsItsSpacing) {
         for (const double degrees : {15, 30, 45, 77, -20}) {
             const std::vector<Vec<2>> points =
                 fill<2>(shape, 0.05, {.angle = degrees * std::numbers::pi / 180, .jitter = 0.2});
-            EXPECT_NEAR(0.0025 * static_cast<double>(points.size()) / measure(shape), 1, 0.02) << degrees;
+            EXPECT_NEAR(0.0025 * static_cast<double>(points.size()) / content(shape).measure, 1, 0.02) << degrees;
         }
     }
     const std::vector<Vec<2>> points = fill<2>(box, 0.05, {.angle = 0.3});
