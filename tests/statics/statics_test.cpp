@@ -394,11 +394,11 @@ class Unloading : public testing::TestWithParam<Course> {
         return physics;
     }
     /// Runs to the end. Returns the largest displacement that is left.
-    static double left_over(Simulation<2>& simulation) {
+    static double left_over(SimulationIn<2>& simulation) {
         while (simulation.time() < 1 && !simulation.collapse()) simulation.step();
         EXPECT_FALSE(simulation.collapse()) << *simulation.collapse();
         double most = 0;
-        for (const Vec<2>& u : simulation.model().particles.displacement) most = std::max(most, u.norm());
+        for (const Vec<2>& u : simulation.state().displacement) most = std::max(most, u.norm());
         return most;
     }
 };
@@ -407,7 +407,7 @@ TEST_P(Unloading, EndsAtRestWhateverTheStepsAndTheSizeOfTheLoad) {
     for (const int load_steps : {2, 8, 9, 10, 12, 20, 21, 50, 100}) {
         for (const double force : {1e-12, 1e5, 1e6}) {
             Model<2> model = plate(10, 4, 1);
-            Simulation<2> simulation(model, held(model, course(model, force, Load::Kind::force), load_steps));
+            SimulationIn<2> simulation(model, held(model, course(model, force, Load::Kind::force), load_steps));
             EXPECT_LE(left_over(simulation), 1e-18 * force) << load_steps << " steps, " << force << " N";
         }
     }
@@ -416,7 +416,7 @@ TEST_P(Unloading, EndsAtRestWhateverTheStepsAndTheSizeOfTheLoad) {
 TEST_P(Unloading, OfAPrescribedMotionEndsAtRest) {
     for (const int load_steps : {8, 10, 50, 100}) {
         Model<2> model = plate(10, 4, 1);
-        Simulation<2> simulation(model,
+        SimulationIn<2> simulation(model,
                                  held(model, course(model, 0.1, Load::Kind::displacement), load_steps));
         EXPECT_LE(left_over(simulation), 1e-15) << load_steps;
     }
@@ -424,7 +424,7 @@ TEST_P(Unloading, OfAPrescribedMotionEndsAtRest) {
 
 TEST_P(Unloading, AfterBreaksEndsAtRest) {
     Model<2> model = plate(10, 4, 1, brittle(2e-3));
-    Simulation<2> simulation(model, held(model, course(model, 0.05, Load::Kind::displacement), 20));
+    SimulationIn<2> simulation(model, held(model, course(model, 0.05, Load::Kind::displacement), 20));
     left_over(simulation);
     EXPECT_GT(simulation.broken(), 0);
 }
@@ -433,14 +433,14 @@ TEST_P(Unloading, UnderGravityEndsWhereGravityAloneLeadsTo) {
     Model<2> model = plate(10, 4, 1);
     Physics physics = held(model, course(model, 1e5, Load::Kind::force), 20);
     physics.gravity = Gravity{{0, -9.81, 0}};
-    Simulation<2> there_and_back(model, physics);
+    SimulationIn<2> there_and_back(model, physics);
     left_over(there_and_back);
     physics.loads.clear();
-    Simulation<2> never_loaded(model, physics);
+    SimulationIn<2> never_loaded(model, physics);
     const double most = left_over(never_loaded);
     for (int i = 0; i < model.particles.count(); ++i)
-        EXPECT_LE((there_and_back.model().particles.displacement[i] -
-                   never_loaded.model().particles.displacement[i])
+        EXPECT_LE((there_and_back.state().displacement[i] -
+                   never_loaded.state().displacement[i])
                       .norm(),
                   1e-9 * most);
 }
@@ -455,21 +455,22 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Far smaller than what rounding leaves of the load before: it is found to its own accuracy all the same.
 TEST(UnloadingOnce, ToATinyLoadFindsItsEquilibriumToAllDigits) {
-    Model<2> model = plate(10, 4, 1);
+    const Model<2> model = plate(10, 4, 1);
     std::vector<std::array<bool, 3>> held(model.particles.count());
     for (const int i : clamp(model).particles) held[i] = {true, true, true};
     const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
-    Equilibrium<2> equilibrium(model, held);
+    State<2> state = initial_state(model);
+    Equilibrium<2> equilibrium(model, *law, state, held);
     std::vector<Vec<2>> applied(model.particles.count(), Vec<2>::Zero());
     const int tip = right_end(model).front();
     for (const double force : {1e5, 1e-9}) {
         applied[tip] = {0, force};
-        ASSERT_TRUE(equilibrium.find(model, *law, applied).found);
+        ASSERT_TRUE(equilibrium.find(state, {applied, {}}).found);
     }
-    const double found = model.particles.displacement[tip].y();
-    for (Vec<2>& u : model.particles.displacement) u.setZero();
-    ASSERT_TRUE(equilibrium.find(model, *law, applied).found);
-    EXPECT_NEAR(found / model.particles.displacement[tip].y(), 1, 1e-8);
+    const double found = state.displacement[tip].y();
+    for (Vec<2>& u : state.displacement) u.setZero();
+    ASSERT_TRUE(equilibrium.find(state, {applied, {}}).found);
+    EXPECT_NEAR(found / state.displacement[tip].y(), 1, 1e-8);
 }
 
 }  // namespace
