@@ -14,7 +14,7 @@ bool fracture_is_calibrated(const Material& material, Assumption assumption, dou
 ///     eps_max = C min(|r0| / l0, sqrt 2)^(1/5) sqrt(Gc / (E' l0))   [-]     Gc J/m^2, l0 m
 /// E' = E in plane stress, E / (1 - nu^2) in plane strain (Pa). C is calibrated against K_I = F sigma
 /// sqrt(pi a) of an edge-cracked strip: the middle of what 20, 40 and 80 particles across ask for, cracks
-/// along the lattice and at 45 degrees to it (tests/physics/calibration_test.cpp). It is not derived from a
+/// along the lattice and at 45 degrees to it (tests/breaking/calibration_test.cpp). It is not derived from a
 /// bond-work integral, which is 1.7-2 times off for these weights.
 ///
 /// The power of the length is a compromise. Without it a crack at 45 degrees is harder to drive than one

@@ -53,7 +53,7 @@ int main(int count, char** words) {
     connect<2>(model, {{.name = "notch", .points = {{0, side / 2}, {side / 4, side / 2}}}});
     const double particles = model.particles.count(), bonds = model.bonds.count();
     report("neighbours, bonds, notch", particles, bonds);
-    Simulation<2> simulation(std::move(model), {});
+    SimulationIn<2> simulation(std::move(model), {});
     report("weights, limits, loops, time step", particles, bonds);
     for (int k = 0; k < 20; ++k) simulation.step();
     report("20 steps", particles, bonds);

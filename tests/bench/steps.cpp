@@ -19,8 +19,8 @@ namespace {
 
 enum class What { plain, breakable, damped_and_heavy, jittered, turned };
 
-Simulation<2>& plate_in_motion(int side, double influence, What what) {
-    static std::map<std::tuple<int, double, What>, std::unique_ptr<Simulation<2>>> known;
+SimulationIn<2>& plate_in_motion(int side, double influence, What what) {
+    static std::map<std::tuple<int, double, What>, std::unique_ptr<SimulationIn<2>>> known;
     auto& simulation = known[{side, influence, what}];
     if (simulation) return *simulation;
     known.clear();
@@ -37,27 +37,27 @@ Simulation<2>& plate_in_motion(int side, double influence, What what) {
     connect<2>(model, {});
     for (int i = 0; i < model.particles.count(); ++i)
         for (int a = 0; a < 2; ++a)
-            model.particles.velocity[i][a] = 0.02 * (unit_random(mix_bits(2 * i + a)) - 0.5);
+            model.particles.initial_velocity[i][a] = 0.02 * (unit_random(mix_bits(2 * i + a)) - 0.5);
     Physics physics;
     if (what == What::damped_and_heavy) {
         physics.gravity = Gravity{Vec3(0, -9.81, 0)};
         physics.damping = Damping{.rate = 0.01};
     }
     auto& place = known[{side, influence, what}];
-    place = std::make_unique<Simulation<2>>(std::move(model), physics);
+    place = std::make_unique<SimulationIn<2>>(std::move(model), physics);
     return *place;
 }
 
 void step(benchmark::State& state, What what) {
     const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(state.range(0)))));
     set_threads(static_cast<int>(state.range(2)));
-    Simulation<2>& simulation = plate_in_motion(side, static_cast<double>(state.range(1)) / 1000, what);
+    SimulationIn<2>& simulation = plate_in_motion(side, static_cast<double>(state.range(1)) / 1000, what);
     for (auto _ : state) simulation.step();
     const auto steps = static_cast<double>(state.iterations());
     state.counters["bond-updates/s"] =
         benchmark::Counter(steps * simulation.model().bonds.count(), benchmark::Counter::kIsRate);
     // Both loops, unwatched and deep inside: 10 and 16 for each of a bond's two ends
-    // (src/physics/kernel/loops.cpp).
+    // (src/elasticity/kernel/loops.cpp).
     state.counters["flop/s"] =
         benchmark::Counter(52 * steps * simulation.model().bonds.count(), benchmark::Counter::kIsRate);
     state.counters["ns/particle-step"] =

@@ -5,7 +5,7 @@
 
 #include <tuple>
 
-#include "breaking/limits.hpp"
+#include "breaking/plane_fracture.hpp"
 #include "support/crack.hpp"
 
 namespace hibi {

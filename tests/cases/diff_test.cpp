@@ -186,15 +186,15 @@ void record(const Scene& scene, const fs::path& folder, const std::optional<std:
         built.model.materials.push_back(stronger);
         for (const int particle : *strong) built.model.particles.material[particle] = 1;
     }
-    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
-    Watch<2> watch(simulation);
+    SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
+    const auto monitor = make_run_monitor(simulation);
     RunWriter writer(folder);
     writer.scene(write_scene(scene));
     writer.topology(topology);
-    Recorder recorder(scene, simulation, watch, writer);
+    Recorder recorder(scene, simulation, *monitor, writer);
     while (simulation.time() < 30) {
         simulation.step();
-        watch.look();
+        monitor->look();
         recorder.look();
     }
     recorder.finish();
@@ -203,7 +203,7 @@ void record(const Scene& scene, const fs::path& folder, const std::optional<std:
     summary.steps = simulation.steps();
     summary.broken = simulation.broken();
     summary.end_time = simulation.time();
-    summary.events = watch.events();
+    summary.events = monitor->events();
     writer.finish(summary);
 }
 

@@ -19,17 +19,17 @@ struct Outcome {
 Outcome run(const std::string& name) {
     const Scene scene = read_scene(std::string(HIBI_SOURCE_DIR) + "/scenes/" + name);
     Built<2> built = build(scene);
-    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
-    Watch<2> watch(simulation);
+    SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
+    const auto monitor = make_run_monitor(simulation);
     Outcome outcome;
     while (simulation.time() < scene.run.max_time && !simulation.failure()) {
         simulation.step();
-        watch.look();
-        outcome.breaks.insert(outcome.breaks.end(), watch.just_broken().begin(), watch.just_broken().end());
-        if (simulation.steps() % 10 == 0) watch.row();
+        monitor->look();
+        outcome.breaks.insert(outcome.breaks.end(), monitor->just_broken().begin(), monitor->just_broken().end());
+        if (simulation.steps() % 10 == 0) monitor->row();
     }
-    outcome.top_speed = watch.top_crack_speed();
-    outcome.worst_imbalance = watch.worst_imbalance();
+    outcome.top_speed = monitor->top_crack_speed();
+    outcome.worst_imbalance = monitor->worst_imbalance();
     return outcome;
 }
 

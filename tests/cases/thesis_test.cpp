@@ -34,17 +34,17 @@ struct Outcome {
 /// Until the scene's end, or a second after separation.
 Outcome run(const Scene& scene) {
     Built<2> built = build(scene);
-    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
-    Watch<2> watch(simulation);
+    SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
+    const auto monitor = make_run_monitor(simulation);
     while (simulation.time() < scene.run.max_time) {
         simulation.step();
-        watch.look();
-        if (simulation.steps() % 10 == 0) watch.row();
-        const std::optional<double> separated = watch.events().time_of({EventName::separation, 0.5});
-        if (watch.events().separation) simulation.stop_damping();
+        monitor->look();
+        if (simulation.steps() % 10 == 0) monitor->row();
+        const std::optional<double> separated = monitor->events().time_of({EventName::separation, 0.5});
+        if (monitor->events().separation) simulation.stop_damping();
         if (separated && simulation.time() >= *separated) break;
     }
-    return {watch.events(), watch.imbalance_before_first_break(), watch.worst_imbalance(),
+    return {monitor->events(), monitor->imbalance_before_first_break(), monitor->worst_imbalance(),
             simulation.read(0)};
 }
 
@@ -63,7 +63,7 @@ TEST(Thesis32, FailureLoadFallsWithTheSpacingForAFixedBreakStrain) {
         Scene s = parse_scene(source(scene), scene, {{"spacing", spacing}});
         s.run.max_time = 30;
         Built<2> built = build(s);
-        Simulation<2> simulation(std::move(built.model), std::move(built.physics));
+        SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
         while (simulation.broken() == 0 && simulation.time() < s.run.max_time) simulation.step();
         return std::abs(simulation.read(0).load);
     };
@@ -93,22 +93,22 @@ TEST(Thesis32, ThesisVariantBreaksAtTheSamePlaceUnderASmallerLoad) {
     Scene scene = parse_scene(source("bending_fine.toml"), "fine", {{"spacing", "2 m"}});
     scene.elasticity = Elasticity::thesis;
     Built<2> built = build(scene);
-    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
-    Watch<2> watch(simulation);
+    SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
+    const auto monitor = make_run_monitor(simulation);
     while (simulation.broken() == 0 && simulation.time() < 30) {
         simulation.step();
-        watch.look();
+        monitor->look();
     }
-    ASSERT_TRUE(watch.events().first_break);
-    EXPECT_NEAR(watch.events().first_break->position.y(), 19, 0.01);
-    EXPECT_LE(watch.events().first_break->position.x(), 6);
-    EXPECT_LT(watch.events().first_break->load, 4.25e7);
+    ASSERT_TRUE(monitor->events().first_break);
+    EXPECT_NEAR(monitor->events().first_break->position.y(), 19, 0.01);
+    EXPECT_LE(monitor->events().first_break->position.x(), 6);
+    EXPECT_LT(monitor->events().first_break->load, 4.25e7);
 }
 
 TEST(SlowThesis32, PlateOf3200ParticlesBreaksUnderStillLess) {
     Scene scene = parse_scene(source("bending_fine.toml"), "fine", {{"spacing", "0.5 m"}});
     Built<2> built = build(scene);
-    Simulation<2> simulation(std::move(built.model), std::move(built.physics));
+    SimulationIn<2> simulation(std::move(built.model), std::move(built.physics));
     while (simulation.broken() == 0 && simulation.time() < 20) simulation.step();
     EXPECT_NEAR(simulation.read(0).load / 3.03e7, 1, 0.02);
 }

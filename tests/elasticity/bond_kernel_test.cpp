@@ -7,8 +7,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
-#include "breaking/limits.hpp"
-#include "simulation/simulation.hpp"
+#include "elasticity/elastic_law.hpp"
 #include "support/plain_bonds.hpp"
 #include "support/plates.hpp"
 
@@ -59,23 +58,24 @@ double largest(const std::vector<Vec<2>>& vectors) {
 
 class Loops : public testing::TestWithParam<Case> {
  protected:
-    Model<2> model_ = build(GetParam());
+    const Model<2> model_ = build(GetParam());
+    State<2> state_ = initial_state(model_);
     ElasticCoefficients coefficients_ = elastic_coefficients(model_);
 
     /// Forces of the loops and of the plain loop on the disturbed body, before and after breaks.
     template <class Compare>
     void judge(Compare&& compare) {
         const auto law = make_elastic_law<2>(model_, Elasticity::moment_matched);
-        test::turn_and_shake(model_, 0.7, 0.05);
-        law->forces(model_);
-        ASSERT_GT(largest(model_.particles.force), 0);
-        compare(model_.particles.force, test::plain_forces(model_, coefficients_));
+        test::turn_and_shake(model_, state_, 0.7, 0.05);
+        law->forces(state_);
+        ASSERT_GT(largest(state_.force), 0);
+        compare(state_.force, test::plain_forces(model_, state_, coefficients_));
         for (int b = 0; b < model_.bonds.count(); b += 41) {
-            model_.bonds.broken_at[b] = 1;
-            law->remove(model_.bonds, b);
+            state_.broken_at[b] = 1;
+            law->remove(b);
         }
-        law->forces(model_);
-        compare(model_.particles.force, test::plain_forces(model_, coefficients_));
+        law->forces(state_);
+        compare(state_.force, test::plain_forces(model_, state_, coefficients_));
     }
 };
 
@@ -85,30 +85,30 @@ TEST_P(Loops, GiveTheBitsOfThePlainLoopOnEveryLevel) {
         judge([&](const std::vector<Vec<2>>& fast, const std::vector<Vec<2>>& plain) {
             EXPECT_TRUE(fast == plain) << kernel::loops().level;
         });
-        std::fill(model_.bonds.broken_at.begin(), model_.bonds.broken_at.end(), Bonds::intact);
+        state_ = initial_state(model_);
     }
 }
 
 TEST_P(Loops, EnergyIsTheSumOfTheParticles) {
     const auto law = make_elastic_law<2>(model_, Elasticity::moment_matched);
-    test::turn_and_shake(model_, 0.7, 0.05);
+    test::turn_and_shake(model_, state_, 0.7, 0.05);
     double sum = 0;
-    for (int i = 0; i < model_.particles.count(); ++i) sum += law->local(model_, i).energy;
-    EXPECT_NEAR(law->energy(model_), sum, 1e-13 * sum);
+    for (int i = 0; i < model_.particles.count(); ++i) sum += law->local(state_, i).energy;
+    EXPECT_NEAR(law->energy(state_), sum, 1e-13 * sum);
 }
 
 TEST_P(Loops, StatesAreThoseOfEachParticle) {
     const auto law = make_elastic_law<2>(model_, Elasticity::moment_matched);
-    test::turn_and_shake(model_, 0.7, 0.05);
+    test::turn_and_shake(model_, state_, 0.7, 0.05);
     const int n = model_.particles.count();
-    law->displaced(model_, 0, n);
+    law->update_displacements(state_, 0, n);
     const double scale = 0.05 * 2.1e8;
     for (int begin = 0; begin < n; begin += parallel_block) {
         const int end = std::min(n, begin + parallel_block);
-        const std::vector<LocalState<2>> states = law->local(model_, begin, end);
+        const std::vector<LocalState<2>> states = law->local(state_, begin, end);
         ASSERT_EQ(states.size(), static_cast<std::size_t>(end - begin));
         for (int i = begin; i < end; ++i) {
-            const LocalState<2> one = law->local(model_, i);
+            const LocalState<2> one = law->local(state_, i);
             EXPECT_NEAR(states[i - begin].energy, one.energy, 1e-13 * scale);
             EXPECT_NEAR(states[i - begin].dilatation, one.dilatation, 1e-14);
             EXPECT_EQ(states[i - begin].bond_strain, one.bond_strain);
@@ -118,25 +118,27 @@ TEST_P(Loops, StatesAreThoseOfEachParticle) {
 }
 
 TEST_P(Loops, NameTheBlockOfABondBeyondItsLimitAndNoOther) {
-    BreakLimits limits = break_limits(model_, std::vector<double>(model_.bonds.count(), 0.1));
+    // Strains of 10 % either way, as (L^2 - L0^2) / L0^2.
+    BreakLimits limits{std::vector<double>(model_.bonds.count(), 0.21),
+                       std::vector<double>(model_.bonds.count(), -0.19)};
     const int weak = 2 * model_.bonds.count() / 3;
     limits.upper[weak] = 0.001;
     const auto law = make_elastic_law<2>(model_, Elasticity::moment_matched, limits);
-    std::vector<Vec<2>>& u = model_.particles.displacement;
+    std::vector<Vec<2>>& u = state_.displacement;
     const auto stretched = [&](double strain) {
         for (std::size_t i = 0; i < u.size(); ++i) u[i] = strain * model_.particles.reference_position[i];
-        law->displaced(model_, 0, model_.particles.count());
-        return law->sum_forces(model_);
+        law->update_displacements(state_, 0, model_.particles.count());
+        return law->sum_forces(state_);
     };
     EXPECT_EQ(stretched(0.0004), std::vector<int>{});
     EXPECT_EQ(stretched(0.0006), std::vector<int>{model_.bonds.first[weak] / parallel_block});
     EXPECT_NE(stretched(0.2), std::vector<int>{});
-    law->remove(model_.bonds, weak);
+    law->remove(weak);
     EXPECT_EQ(stretched(0.0006), std::vector<int>{});
     for (std::size_t i = 0; i < u.size(); ++i)
         u[i] = -2 * model_.particles.reference_position[i];  // half a turn
-    law->displaced(model_, 0, model_.particles.count());
-    EXPECT_EQ(law->sum_forces(model_), std::vector<int>{});
+    law->update_displacements(state_, 0, model_.particles.count());
+    EXPECT_EQ(law->sum_forces(state_), std::vector<int>{});
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -150,56 +152,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ThreeColumns", 2.1, {Box<2>{{0, 0}, {1.5, 20}}}},
                     Case{"OneRow", 2.1, {Box<2>{{0, 0}, {6, 0.5}}}}),
     [](const auto& param) { return std::string(param.param.name); });
-
-TEST(Simulation, HoldsParticlesWhereverTheyStandInABlock) {
-    Model<2> model = test::plate(60, 30, 1);  // two blocks
-    const std::vector<int> held = test::where(model, [](const Vec<2>& X) { return X.x() > 58; });
-    for (Vec<2>& v : model.particles.velocity) v = {1, 0.5};
-    Physics physics;
-    physics.holds = {{"right", held, {true, true, false}}};
-    Simulation<2> simulation(model, physics);
-    for (int k = 0; k < 50; ++k) simulation.step();
-    for (const int i : held) EXPECT_TRUE(simulation.model().particles.displacement[i].isZero(0));
-    EXPECT_GT(simulation.model().particles.displacement[0].x(), 0);
-}
-
-TEST(Loops, RenewedAfterBreaksAreThoseOfTheWholeBody) {
-    Material m = test::concrete();
-    m.break_strain = 0.02;
-    Model<2> model = test::plate(100, 60, 1, m);  // six blocks
-    const ElasticCoefficients coefficients = elastic_coefficients(model);
-    for (int i = 0; i < model.particles.count(); ++i)
-        model.particles.velocity[i].y() = model.particles.reference_position[i].x() < 30 ? 20 : 0;
-    Simulation<2> simulation(model, {});
-    int breaking_steps = 0;
-    for (int k = 0; k < 200 && breaking_steps < 20; ++k) {
-        simulation.step();
-        if (simulation.just_broken().empty()) continue;
-        ++breaking_steps;
-        EXPECT_TRUE(simulation.model().particles.force ==
-                    test::plain_forces(simulation.model(), coefficients));
-    }
-    EXPECT_EQ(breaking_steps, 20);
-}
-
-TEST(Loops, OfEveryLevelGiveOneRunBitForBit) {
-    const auto positions = [](const char* name) {
-        const Level level(name);
-        Material m = test::concrete();
-        m.break_strain = 0.02;
-        m.weibull = Weibull{.shape = 10, .seed = 1};
-        Model<2> model = test::plate(40, 30, 1, m);
-        for (int i = 0; i < model.particles.count(); ++i)
-            model.particles.velocity[i].x() = model.particles.reference_position[i].x() - 20;
-        Simulation<2> simulation(model, {});
-        for (int k = 0; k < 300; ++k) simulation.step();
-        EXPECT_GT(simulation.broken(), 10);
-        return simulation.model().particles.velocity;
-    };
-    const auto v2 = positions("v2");
-    EXPECT_TRUE(v2 == positions("v3"));
-    EXPECT_TRUE(v2 == positions("v4"));
-}
 
 }  // namespace
 }  // namespace hibi

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "breaking/limits.hpp"
-#include "elasticity/elastic_law.hpp"
 #include "elasticity/elastic_coefficients.hpp"
-#include "statics/equilibrium.hpp"
+#include "elasticity/elastic_law.hpp"
+#include "elasticity/frequency.hpp"
 #include "elasticity/mixed_bonds.hpp"
 #include "simulation/simulation.hpp"
-#include "elasticity/frequency.hpp"
+#include "statics/equilibrium.hpp"
 #include "support/plain_bonds.hpp"
 #include "support/plates.hpp"
 
@@ -49,7 +49,7 @@ Model<2> layered(int layer, int rows, std::vector<Material> materials, double in
 
 /// Settles under `applied` with the first column held. Returns the mean motion of the last column along the
 /// force.
-double motion(Model<2>& model, const Vec<2>& force) {
+double motion(const Model<2>& model, State<2>& state, const Vec<2>& force) {
     std::vector<std::array<bool, 3>> held(model.particles.count());
     std::vector<Vec<2>> applied(model.particles.count(), Vec<2>::Zero());
     double right = 0;
@@ -58,11 +58,16 @@ double motion(Model<2>& model, const Vec<2>& force) {
     for (const int i : test::where(model, [](const Vec<2>& X) { return X.x() < 1; })) held[i] = {true, true};
     for (const int i : end) applied[i] = force / static_cast<double>(end.size());
     const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
-    Equilibrium<2> equilibrium(model, held);
-    EXPECT_TRUE(equilibrium.find(model, *law, applied).found);
+    state = initial_state(model);
+    Equilibrium<2> equilibrium(model, *law, state, held);
+    EXPECT_TRUE(equilibrium.find(state, {applied, {}}).found);
     double sum = 0;
-    for (const int i : end) sum += model.particles.displacement[i].dot(force.normalized());
+    for (const int i : end) sum += state.displacement[i].dot(force.normalized());
     return sum / static_cast<double>(end.size());
+}
+double motion(const Model<2>& model, const Vec<2>& force) {
+    State<2> state;
+    return motion(model, state, force);
 }
 
 struct Layer {
@@ -77,10 +82,10 @@ class SoftLayer : public testing::TestWithParam<Layer> {};
 // as well, count with.
 TEST_P(SoftLayer, StretchesAsASpringInSeriesWithWhatItIsGluedTo) {
     const auto [columns, contrast, influence, tolerance] = GetParam();
-    Model<2> model = layered(columns, 10, materials(contrast), influence);
+    const Model<2> model = layered(columns, 10, materials(contrast), influence);
     const double stress = 1e2;
     // The columns that are held and pulled have errors of their own, those of the stiff bar.
-    Model<2> bar = layered(columns, 10, materials(1));
+    const Model<2> bar = layered(columns, 10, materials(1));
     const double exact =
         motion(bar, {10 * stress / contrast, 0}) + columns * stress / 1e6 * (1 - 1 / contrast);
     EXPECT_NEAR(motion(model, {10 * stress, 0}) / exact, 1, tolerance);
@@ -135,7 +140,8 @@ class InterfacePatch : public testing::TestWithParam<Patch> {
     /// Particles near the border are held where the exact solution has them; judges all others, in a strip
     /// across the middle.
     void judge(const Exact& exact, const char* what) {
-        Model<2> model = model_;
+        const Model<2>& model = model_;
+        State<2> state = initial_state(model);
         std::array<Mat<2>, 2> stress;
         std::array<double, 2> density{};  // of energy
         for (const int k : {soft, stiff}) {
@@ -150,16 +156,15 @@ class InterfacePatch : public testing::TestWithParam<Patch> {
         for (int i = 0; i < model.particles.count(); ++i) {
             const Vec<2>& X = model.particles.reference_position[i];
             const double d = depth(X), l = (X - Vec<2>(columns_ / 2.0, columns_ / 2.0)).dot(along_);
-            model.particles.displacement[i] =
+            state.displacement[i] =
                 integral(d, exact.stretch) * across_ + (exact.along * l + integral(d, exact.shear)) * along_;
             const double border = std::min({X.x(), X.y(), columns_ - X.x(), columns_ - X.y()});
             if (border < 4) held[i] = {true, true};
         }
         const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
-        Equilibrium<2> equilibrium(model, held);
+        Equilibrium<2> equilibrium(model, *law, state, held);
         ASSERT_TRUE(
-            equilibrium.find(model, *law, std::vector<Vec<2>>(model.particles.count(), Vec<2>::Zero()))
-                .found);
+            equilibrium.find(state, {std::vector<Vec<2>>(model.particles.count(), Vec<2>::Zero()), {}}).found);
         Mat<2> turned;
         turned << across_, along_;
         double sum = 0, exact_sum = 0, worst = 0;
@@ -169,10 +174,10 @@ class InterfacePatch : public testing::TestWithParam<Patch> {
             // whole periods of the rows, whichever way they run
             if (l < -2.2 || l > 2.05 || std::abs(depth(X)) > width / 2 - 4) continue;
             const int k = model.particles.material[i];
-            const LocalState<2> state = law->local(model, i);
-            sum += state.energy;
+            const LocalState<2> local = law->local(state, i);
+            sum += local.energy;
             exact_sum += density[k];
-            const Mat<2> error = turned.transpose() * state.stress * turned - stress[k];
+            const Mat<2> error = turned.transpose() * local.stress * turned - stress[k];
             worst = std::max(worst, error.cwiseAbs().maxCoeff() / stress[k].cwiseAbs().maxCoeff());
         }
         EXPECT_NEAR(sum / exact_sum, 1, GetParam().energy) << what;
@@ -212,29 +217,30 @@ Model<2> inclusion() {
 }
 
 TEST(Interface, ForcesAndTangentAreTheDerivativesOfOneEnergyWithBrokenBonds) {
-    Model<2> model = inclusion();
-    test::break_every_seventh(model);
-    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
-    test::turn_and_shake(model, 0.7, 0.02);
-    const Eigen::MatrixXd K = tangent(model);
-    law->forces(model);
-    const std::vector<Vec<2>> force = model.particles.force;
+    const Model<2> model = inclusion();
+    State<2> state = initial_state(model);
+    test::break_every_seventh(state);
+    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched, state);
+    test::turn_and_shake(model, state, 0.7, 0.02);
+    const Eigen::MatrixXd K = tangent(model, state);
+    law->forces(state);
+    const std::vector<Vec<2>> force = state.force;
     double scale = 0;
     for (const Vec<2>& f : force) scale = std::max(scale, f.norm());
     const double h = 1e-4;
     for (int i = 0; i < model.particles.count(); i += 3) {
         for (int a = 0; a < 2; ++a) {
-            double& u = model.particles.displacement[i][a];
+            double& u = state.displacement[i][a];
             const double keep = u;
             Eigen::VectorXd slope = Eigen::VectorXd::Zero(K.rows());
             constexpr std::array<double, 4> at{-2, -1, 1, 2}, factor{1, -8, 8, -1};
             double derivative = 0;
             for (int k = 0; k < 4; ++k) {
                 u = keep + at[k] * h;
-                derivative += factor[k] * law->energy(model) / (12 * h);
-                law->forces(model);
+                derivative += factor[k] * law->energy(state) / (12 * h);
+                law->forces(state);
                 for (int j = 0; j < model.particles.count(); ++j)
-                    slope.segment<2>(2 * j) += factor[k] / (12 * h) * model.particles.force[j];
+                    slope.segment<2>(2 * j) += factor[k] / (12 * h) * state.force[j];
             }
             u = keep;
             EXPECT_NEAR(-derivative, force[i][a], 1e-7 * scale) << i << " " << a;
@@ -244,24 +250,25 @@ TEST(Interface, ForcesAndTangentAreTheDerivativesOfOneEnergyWithBrokenBonds) {
 }
 
 TEST(Interface, TurnedBodyFeelsNoForceAndLoopsGiveTheBitsOfThePlainOne) {
-    Model<2> model = inclusion();
-    test::break_every_seventh(model);
-    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
+    const Model<2> model = inclusion();
+    State<2> state = initial_state(model);
+    test::break_every_seventh(state);
+    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched, state);
     const ElasticCoefficients coefficients = elastic_coefficients(model);
-    test::turn_and_shake(model, 1.3, 0);
-    law->forces(model);
-    for (const Vec<2>& f : model.particles.force) EXPECT_LE(f.norm(), 1e-12 * 5e7);
-    EXPECT_LE(law->energy(model), 1e-20 * 5e7);
-    test::turn_and_shake(model, 1.3, 0.05);
-    law->forces(model);
-    EXPECT_TRUE(model.particles.force == test::plain_forces(model, coefficients));
-    const std::vector<LocalState<2>> states = law->local(model, 0, model.particles.count());
+    test::turn_and_shake(model, state, 1.3, 0);
+    law->forces(state);
+    for (const Vec<2>& f : state.force) EXPECT_LE(f.norm(), 1e-12 * 5e7);
+    EXPECT_LE(law->energy(state), 1e-20 * 5e7);
+    test::turn_and_shake(model, state, 1.3, 0.05);
+    law->forces(state);
+    EXPECT_TRUE(state.force == test::plain_forces(model, state, coefficients));
+    const std::vector<LocalState<2>> states = law->local(state, 0, model.particles.count());
     double energy = 0;
     for (int i = 0; i < model.particles.count(); ++i) {
         energy += states[i].energy;
-        EXPECT_TRUE(states[i].stress.isApprox(law->local(model, i).stress, 1e-12)) << i;
+        EXPECT_TRUE(states[i].stress.isApprox(law->local(state, i).stress, 1e-12)) << i;
     }
-    EXPECT_NEAR(energy / law->energy(model), 1, 1e-12);
+    EXPECT_NEAR(energy / law->energy(state), 1, 1e-12);
 }
 
 TEST(Interface, MaterialsOfOneShearModulusChangeNoBit) {
@@ -307,17 +314,17 @@ TEST(Interface, ExplicitStepsComeToRestWhereStaticsDo) {
     std::vector<std::array<bool, 3>> held(model.particles.count());
     for (const int i : physics.holds[0].particles) held[i] = {true, true};
     const double duration = 20 * 2 * 3.14159 / first_frequency(model, held);
-    Simulation<2> moving(model, physics);
+    SimulationIn<2> moving(model, physics);
     while (moving.time() < duration) moving.step();
     EXPECT_LE(std::abs(moving.energies().sum() - moving.energies().work), 1e-3 * moving.energies().work);
     physics.damping.reset();
     physics.statics = Statics{.duration = 1, .load_steps = 1};
-    Simulation<2> still(model, physics);
+    SimulationIn<2> still(model, physics);
     still.step();
-    const double most = still.model().particles.displacement[end.front()].norm();
+    const double most = still.state().displacement[end.front()].norm();
     ASSERT_GT(most, 0);
     for (int i = 0; i < model.particles.count(); ++i)
-        EXPECT_LE((moving.model().particles.displacement[i] - still.model().particles.displacement[i]).norm(),
+        EXPECT_LE((moving.state().displacement[i] - still.state().displacement[i]).norm(),
                   1e-8 * most);
 }
 
@@ -327,12 +334,12 @@ TEST(Interface, LayerBreaksAtTheStrainOfItsMaterial) {
         std::vector<Material> of = materials(1e4);
         of[soft].break_strain = 0.01;
         of[stiff].break_strain = 0.01;
-        Model<2> model = layered(columns, 10, of);
+        const Model<2> model = layered(columns, 10, of);
         for (const double share : {0.9, 1.15}) {
-            Model<2> pulled = model;
-            motion(pulled, {10 * 1e6 * 0.01 * share, 0});
-            const BreakLimits limits = break_limits(pulled, break_strains(pulled, {}));
-            const auto law = make_elastic_law<2>(pulled, Elasticity::moment_matched, limits);
+            State<2> pulled;
+            motion(model, pulled, {10 * 1e6 * 0.01 * share, 0});
+            const BreakLimits limits = break_limits(model, break_strains(model, {}));
+            const auto law = make_elastic_law<2>(model, Elasticity::moment_matched, limits);
             EXPECT_EQ(law->forces(pulled).empty(), share < 1) << columns << " columns at " << share;
         }
     }
@@ -341,23 +348,22 @@ TEST(Interface, LayerBreaksAtTheStrainOfItsMaterial) {
 TEST(Interface, ThesisVariantActsInSeriesAsWell) {
     const int rows = 30;  // its surfaces are stiff or soft by themselves
     const auto stretch = [&](int layer, double contrast) {
-        Model<2> model = layered(layer, rows, materials(contrast));
-        model.spin = make_spin(model);
-        Physics physics;
-        physics.elasticity = Elasticity::thesis;
+        const Model<2> model = layered(layer, rows, materials(contrast));
+        State<2> state = initial_state(model);
         const auto law = make_elastic_law<2>(model, Elasticity::thesis);
+        law->start(state, std::vector<std::array<bool, 3>>(model.particles.count()));
         // uniform stress in series, as bilinear displacements: inner particles are at rest
         for (int i = 0; i < model.particles.count(); ++i) {
             const double x = model.particles.reference_position[i].x();
             const double in_layer = std::clamp(x - 10, 0.0, 1.0 * layer);
-            model.particles.displacement[i] = {1e-6 * (in_layer + (x - in_layer) / contrast), 0};
+            state.displacement[i] = {1e-6 * (in_layer + (x - in_layer) / contrast), 0};
         }
-        law->forces(model);
+        law->forces(state);
         double worst = 0;
         for (int i = 0; i < model.particles.count(); ++i) {
             const Vec<2>& X = model.particles.reference_position[i];
             if (std::min({X.x(), X.y(), 20 + layer - X.x(), rows - X.y()}) > 4)
-                worst = std::max(worst, model.particles.force[i].norm());
+                worst = std::max(worst, state.force[i].norm());
         }
         return worst;
     };

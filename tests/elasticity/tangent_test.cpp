@@ -18,25 +18,26 @@ class TangentAt : public testing::TestWithParam<double> {};
 TEST_P(TangentAt, IsTheDerivativeOfTheForcesWithBrokenBonds) {
     Material material = test::concrete();
     material.poissons_ratio = GetParam();
-    Model<2> model = test::plate(7, 6, 0.5, material, Assumption::plane_strain);
-    test::break_every_seventh(model);
-    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
-    test::turn_and_shake(model, 0.7, 0.05);
-    const Eigen::MatrixXd K = tangent(model);
+    const Model<2> model = test::plate(7, 6, 0.5, material, Assumption::plane_strain);
+    State<2> state = initial_state(model);
+    test::break_every_seventh(state);
+    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched, state);
+    test::turn_and_shake(model, state, 0.7, 0.05);
+    const Eigen::MatrixXd K = tangent(model, state);
     const double scale = K.cwiseAbs().maxCoeff(), h = 1e-4;
     ASSERT_GT(scale, 0);
     const int n = model.particles.count();
     const auto forces = [&](int column, double step) {
-        double& u = model.particles.displacement[column / 2][column % 2];
+        double& u = state.displacement[column / 2][column % 2];
         const double keep = u;
         u += step * h;
-        law->forces(model);
+        law->forces(state);
         u = keep;
         Eigen::VectorXd f(2 * n);
-        for (int i = 0; i < n; ++i) f.segment<2>(2 * i) = model.particles.force[i];
+        for (int i = 0; i < n; ++i) f.segment<2>(2 * i) = state.force[i];
         return f;
     };
-    Tangent<2> from_bonds(model);
+    const Tangent<2> from_bonds(model, state);
     for (int column = 0; column < 2 * n; ++column) {
         const Eigen::VectorXd derivative =
             (forces(column, -2) - 8 * forces(column, -1) + 8 * forces(column, 1) - forces(column, 2)) /
@@ -53,14 +54,15 @@ INSTANTIATE_TEST_SUITE_P(PoissonsRatio, TangentAt, testing::Values(0, 0.3, 0.49)
 
 // The pattern is found once: what breaks or moves later must find its place in it.
 TEST(Tangent, UpdatedAfterBreaksItIsThatOfTheDamagedModel) {
-    Model<2> model = test::plate(6, 5, 1);
+    const Model<2> model = test::plate(6, 5, 1);
+    State<2> state = initial_state(model);
     const std::vector<std::array<bool, 3>> held(model.particles.count());
-    Tangent<2> kept(model);
+    Tangent<2> kept(model, state);
     kept.assemble(held);
-    test::break_every_seventh(model);
-    test::turn_and_shake(model, 0.3, 0.02);
-    kept.update(model);
-    const Eigen::MatrixXd lower = kept.assemble(held), expected = tangent(model);
+    test::break_every_seventh(state);
+    test::turn_and_shake(model, state, 0.3, 0.02);
+    kept.update(state);
+    const Eigen::MatrixXd lower = kept.assemble(held), expected = tangent(model, state);
     const Eigen::MatrixXd difference = (lower - expected).triangularView<Eigen::Lower>();
     EXPECT_LE(difference.cwiseAbs().maxCoeff(), 1e-15 * expected.cwiseAbs().maxCoeff());
 }
@@ -69,7 +71,7 @@ TEST(Cholesky, SolvesAndKnowsWhatIsNotPositiveDefinite) {
     const Model<2> model = test::plate(8, 5, 1);
     std::vector<std::array<bool, 3>> held(model.particles.count());
     held[0] = {true, true, false};
-    Tangent<2> K(model);
+    Tangent<2> K(model, initial_state(model));
     Eigen::SparseMatrix<double> lower = K.assemble(held);
     Cholesky cholesky(lower);
     cholesky.factorise(lower);

@@ -98,7 +98,7 @@ TEST(Build, BodiesStartWithTheirVelocityAndSpin) {
     const Built<2> built = built_from(small(
         "spacing = \"spacing\"", "spacing = \"spacing\"\nvelocity = [\"1 m/s\", \"x/(2 s)\"]\nspin = 3"));
     // Particle 0 at (2 m, 2 m), the centre of mass at (20 m, 10 m): v = (1, 1) + 3 x (8, -18).
-    EXPECT_NEAR((built.model.particles.velocity[0] - Vec<2>(1 + 24, 1 - 54)).norm(), 0, 1e-12);
+    EXPECT_NEAR((built.model.particles.initial_velocity[0] - Vec<2>(1 + 24, 1 - 54)).norm(), 0, 1e-12);
 }
 
 TEST(Build, NotchesCutAndAreHandedOnForDrawing) {
@@ -156,7 +156,7 @@ Pulled pulled(const std::string& lattice) {
                 best = i;
         return best;
     };
-    Eigen::SparseMatrix<double> K = tangent(built.model);
+    Eigen::SparseMatrix<double> K = tangent(built.model, initial_state(built.model));
     for (const int dof : {2 * nearest({20, 5}), 2 * nearest({10, 5}) + 1, 2 * nearest({30, 5}) + 1})
         K.coeffRef(dof, dof) *= 1e9;
     const Eigen::VectorXd u = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(force);

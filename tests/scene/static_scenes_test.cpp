@@ -67,13 +67,13 @@ TEST(StaticScene, RefusesWhatHasNoMeaningWithoutMotion) {
 
 TEST(StaticScene, ItsStepHoldsOnlyWhatItAsksFor) {
     Built<2> built = build(parse_scene(with("method = \"static\"\n"), "s.toml"));
-    const Simulation<2> simulation(built.model, built.physics);
+    const SimulationIn<2> simulation(built.model, built.physics);
     EXPECT_EQ(simulation.stage_names(),
               (std::vector<std::string>{"raise loads, to the next load step or to the first break",
                                         "equilibrium (Newton, moment-matched)",
                                         "break the bond furthest beyond its limit"}));
     built.model.materials[0].break_strain.reset();
-    const Simulation<2> unbreakable(built.model, built.physics);
+    const SimulationIn<2> unbreakable(built.model, built.physics);
     EXPECT_EQ(unbreakable.stage_names(), (std::vector<std::string>{"raise loads to the next load step",
                                                                    "equilibrium (Newton, moment-matched)"}));
 }

@@ -15,7 +15,7 @@ void expect_the_same_scene(const Scene& first, const Scene& second) {
     EXPECT_EQ(write_scene(second), write_scene(first));
     const Built<2> a = build(first), b = build(second);
     EXPECT_EQ(a.model.particles.reference_position, b.model.particles.reference_position);
-    EXPECT_EQ(a.model.particles.velocity, b.model.particles.velocity);
+    EXPECT_EQ(a.model.particles.initial_velocity, b.model.particles.initial_velocity);
     EXPECT_EQ(a.model.bonds.first, b.model.bonds.first);
     ASSERT_EQ(a.physics.loads.size(), b.physics.loads.size());
     for (std::size_t l = 0; l < a.physics.loads.size(); ++l) {

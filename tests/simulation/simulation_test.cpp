@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "base/hash.hpp"
+#include "base/fields.hpp"
 #include "base/parallel.hpp"
-#include "breaking/limits.hpp"
 #include "elasticity/frequency.hpp"
 #include "elasticity/weights.hpp"
 #include "support/plates.hpp"
@@ -28,19 +27,12 @@ Hold clamp_left(const Model<2>& model, double to) {
 }
 
 /// All that a run computes, bit for bit.
-std::string fingerprint(const Simulation<2>& simulation) {
-    std::string bytes;
-    Particles<2>::each_field(simulation.model().particles, [&](const char*, const auto& field) {
-        bytes += sha256(field.data(), field.size() * sizeof field[0]);
-    });
-    const Energies e = simulation.energies();  // sums over all particles
-    for (const double x : {e.kinetic, e.elastic, e.damped, e.released, e.work}) bytes += sha256(&x, sizeof x);
-    const std::vector<double>& broken = simulation.model().bonds.broken_at;
-    return sha256(bytes + sha256(broken.data(), broken.size() * sizeof(double)));
+std::string fingerprint(const SimulationIn<2>& simulation) {
+    return hash_of(simulation.state()) + hash_of(simulation.energies());  // these: sums over all particles
 }
 
 /// A cantilever of 40 x 20 m that breaks early because its load comes on fast.
-Simulation<2> cantilever(int columns, Elasticity elasticity = Elasticity::moment_matched,
+SimulationIn<2> cantilever(int columns, Elasticity elasticity = Elasticity::moment_matched,
                          double break_strain = 0.02) {
     const double spacing = 40.0 / columns;
     Model<2> model = plate(columns, columns / 2, spacing, breakable(break_strain));
@@ -59,7 +51,7 @@ TEST(Simulation, SameBitsOnOneTwoThreeAndEightThreads) {
         int broken = 0;
         for (const int count : {1, 2, 3, 8}) {
             set_threads(count);
-            Simulation<2> simulation =
+            SimulationIn<2> simulation =
                 cantilever(92, elasticity, 2e-5);  // 4232 particles: beyond parallel_minimum
             for (int k = 0; k < 60; ++k) simulation.step();
             broken = simulation.broken();
@@ -78,8 +70,8 @@ TEST(Simulation, LargeBodiesHaveTheSameBitsInWhateverSegmentsTheyAreWalked) {
         set_threads(count);
         Model<2> model = plate(300, 240, 1, breakable(0.02));  // 71 blocks
         for (int i = 0; i < model.particles.count(); ++i)
-            model.particles.velocity[i].y() = model.particles.reference_position[i].x() < 30 ? 20 : 0;
-        Simulation<2> simulation(std::move(model), {});
+            model.particles.initial_velocity[i].y() = model.particles.reference_position[i].x() < 30 ? 20 : 0;
+        SimulationIn<2> simulation(std::move(model), {});
         for (int k = 0; k < 40; ++k) simulation.step();
         broken = simulation.broken();
         prints.push_back(fingerprint(simulation));
@@ -91,7 +83,7 @@ TEST(Simulation, LargeBodiesHaveTheSameBitsInWhateverSegmentsTheyAreWalked) {
 
 TEST(Simulation, EnergyBalancesUpToFirstBreakAndThroughBreaks) {
     for (const Elasticity elasticity : {Elasticity::moment_matched, Elasticity::thesis}) {
-        Simulation<2> simulation = cantilever(20, elasticity);
+        SimulationIn<2> simulation = cantilever(20, elasticity);
         const auto imbalance = [&] {
             const Energies e = simulation.energies();
             return std::abs(e.sum() - e.work) / std::max({e.work, e.elastic, e.kinetic});
@@ -117,10 +109,10 @@ TEST(Simulation, StableBelowTheLimitAndRefusedAboveIt) {
     const auto run = [&](double factor) {
         Model<2> copy = model;
         for (int i = 0; i < copy.particles.count(); ++i)
-            copy.particles.velocity[i] = {std::sin(7.0 * i), std::cos(5.0 * i * i)};
+            copy.particles.initial_velocity[i] = {std::sin(7.0 * i), std::cos(5.0 * i * i)};
         Physics physics;
         physics.time_step = factor * limit;
-        Simulation<2> simulation(copy, physics);
+        SimulationIn<2> simulation(copy, physics);
         const double start = simulation.kinetic_energy();
         for (int k = 0; k < 20000; ++k) simulation.step();
         return simulation.kinetic_energy() / start;
@@ -129,40 +121,14 @@ TEST(Simulation, StableBelowTheLimitAndRefusedAboveIt) {
     EXPECT_THROW(run(1.01), std::runtime_error);
 }
 
-TEST(Simulation, TooLargeAStepReallyIsUnstable) {
-    // The refusal is right: the same integration with a step 1 % above the limit, done by hand.
-    Model<2> model = plate(8, 5, 1);
-    const auto law = make_elastic_law<2>(model, Elasticity::moment_matched);
-    const double omega = highest_frequency(model, *law);
-    const auto growth = [&](double step) {
-        Model<2> m = model;
-        for (int i = 0; i < m.particles.count(); ++i)
-            m.particles.velocity[i] = {1e-6 * std::sin(7.0 * i), 1e-6 * std::cos(5.0 * i * i)};
-        double size = 0;
-        for (int k = 0; k < 3000; ++k) {
-            law->forces(m);
-            size = 0;
-            for (int i = 0; i < m.particles.count(); ++i) {
-                m.particles.velocity[i] += step / m.particles.mass[i] * m.particles.force[i];
-                m.particles.displacement[i] += step * m.particles.velocity[i];
-                size = std::max(size, m.particles.velocity[i].norm());
-            }
-            if (size > 1) break;  // a million times the start: no need to wait for infinity
-        }
-        return size / 1e-6;
-    };
-    EXPECT_LE(growth(0.99 * 2 / omega), 30);
-    EXPECT_GE(growth(1.01 * 2 / omega), 1e4);
-}
-
 TEST(Simulation, FreeFallIsExactAndItsBalanceToo) {
     Model<2> model = plate(6, 4, 0.5);
     Physics physics;
     physics.gravity = Gravity{{0, -9.80665, 0}};
-    Simulation<2> simulation(model, physics);
+    SimulationIn<2> simulation(model, physics);
     for (int k = 0; k < 500; ++k) simulation.step();
     const double t = simulation.time();
-    for (const Vec<2>& u : simulation.model().particles.displacement)
+    for (const Vec<2>& u : simulation.state().displacement)
         EXPECT_NEAR(u.y(), -9.80665 * t * t / 2, 1e-9);
     const Energies e = simulation.energies();
     EXPECT_NEAR(e.kinetic / e.work, 1, 1e-10);
@@ -173,24 +139,24 @@ TEST(Simulation, ABodyOfOneParticleFallsLikeAnyOther) {
     physics.gravity = Gravity{{0, -9.80665, 0}};
     for (const Elasticity elasticity : {Elasticity::moment_matched, Elasticity::thesis}) {
         physics.elasticity = elasticity;
-        Simulation<2> simulation(plate(1, 1, 1), physics);
+        SimulationIn<2> simulation(plate(1, 1, 1), physics);
         ASSERT_EQ(simulation.model().bonds.count(), 0);
         while (simulation.time() < 1) simulation.step();
         const double t = simulation.time();
         EXPECT_LT(t, 1.1);
-        EXPECT_NEAR(simulation.model().particles.displacement[0].y(), -9.80665 * t * t / 2, 1e-9);
+        EXPECT_NEAR(simulation.state().displacement[0].y(), -9.80665 * t * t / 2, 1e-9);
     }
 }
 
 TEST(Simulation, MassProportionalDampingDecaysAFreeBodyExponentially) {
     Model<2> model = plate(6, 4, 0.5);
-    for (Vec<2>& v : model.particles.velocity) v = {3, 0};
+    for (Vec<2>& v : model.particles.initial_velocity) v = {3, 0};
     Physics physics;
     physics.damping = Damping{.rate = 2.0};
-    Simulation<2> simulation(model, physics);
+    SimulationIn<2> simulation(model, physics);
     const double start = simulation.kinetic_energy();
     while (simulation.time() < 0.7) simulation.step();
-    EXPECT_NEAR(simulation.model().particles.velocity[0].x(), 3 * std::exp(-2 * simulation.time()), 1e-5);
+    EXPECT_NEAR(simulation.state().velocity[0].x(), 3 * std::exp(-2 * simulation.time()), 1e-5);
     const Energies e = simulation.energies();
     EXPECT_NEAR((e.kinetic + e.damped) / start, 1, 1e-12);
     EXPECT_DOUBLE_EQ(e.work, start);
@@ -199,22 +165,7 @@ TEST(Simulation, MassProportionalDampingDecaysAFreeBodyExponentially) {
 TEST(Simulation, DampingRatioOnAFreeBodyIsRefused) {
     Physics physics;
     physics.damping = Damping{.ratio = 0.3};
-    EXPECT_THROW(Simulation<2>(plate(6, 4, 0.5), physics), std::runtime_error);
-}
-
-/// Simply the exact solution of a clamped-free bar in pure bending cannot be had here; a cantilever's first
-/// frequency by Timoshenko theory (kappa = 10 (1 + nu) / (12 + 11 nu), Cowper 1966) is good to a per cent at
-/// L / H = 8.
-TEST(TimeStep, FirstFrequencyOfASlenderCantilever) {
-    // 64 x 8 particles; clamping one column leaves a span of 63.5 spacings from its centre.
-    Model<2> model = plate(64, 8, 0.125);
-    std::vector<std::array<bool, 3>> held(model.particles.count(), std::array<bool, 3>{});
-    for (const int i : where(model, [](const Vec<2>& X) { return X.x() < 0.125; }))
-        held[i] = {true, true, false};
-    const double omega = first_frequency(model, held);
-    const double E = 2.1e8, rho = 2300, H = 1, L = 63.5 * 0.125, I = H * H * H / 12;
-    const double bernoulli = std::pow(1.8751041, 2) * std::sqrt(E * I / (rho * H)) / (L * L);
-    EXPECT_NEAR(omega / bernoulli, 0.99, 0.015);  // shear and rotary inertia lower it by about 1 %
+    EXPECT_THROW(SimulationIn<2>(plate(6, 4, 0.5), physics), std::runtime_error);
 }
 
 TEST(Simulation, PrescribedMotionMovesAsToldAndItsWorkIsCounted) {
@@ -231,7 +182,7 @@ TEST(Simulation, PrescribedMotionMovesAsToldAndItsWorkIsCounted) {
         grip.ramp = {0.5};
         physics.loads = {grip};
         physics.damping = Damping{.ratio = 0.5};
-        Simulation<2> simulation(model, physics);
+        SimulationIn<2> simulation(model, physics);
         while (simulation.time() < 0.75) simulation.step();
         const double t = simulation.time();
         const double expected = kind == Load::Kind::displacement ? 0.05 : 0.1 * (t - 0.25);
@@ -259,7 +210,7 @@ TEST(Simulation, ReleasedLoadLetsGo) {
     // Letting a force F go at once shifts the balance by dt^2 F^2 / 8 m: a small step keeps that out of the
     // way.
     physics.time_step_factor = 0.1;
-    Simulation<2> simulation(model, physics);
+    SimulationIn<2> simulation(model, physics);
     while (simulation.time() < 0.3) simulation.step();
     EXPECT_DOUBLE_EQ(simulation.read(0).displacement, 0.05);
     simulation.release(0);
@@ -276,11 +227,11 @@ TEST(Simulation, ABodyThatSpinsKeepsItsEnergyInBothLaws) {
         Model<2> model = plate(10, 10, 1);
         for (int i = 0; i < model.particles.count(); ++i) {
             const Vec<2> r = model.particles.reference_position[i] - Vec<2>(5, 5);
-            model.particles.velocity[i] = 0.5 * Vec<2>(-r.y(), r.x());
+            model.particles.initial_velocity[i] = 0.5 * Vec<2>(-r.y(), r.x());
         }
         Physics physics;
         physics.elasticity = elasticity;
-        Simulation<2> simulation(model, physics);
+        SimulationIn<2> simulation(model, physics);
         const double start = simulation.kinetic_energy();
         for (int k = 0; k < 2000; ++k) {
             simulation.step();
@@ -306,104 +257,12 @@ TEST(Simulation, APressureAllRoundHasNoLoadToReport) {
     gas.ramp = {0.1};
     Physics physics;
     physics.loads = {gas};
-    Simulation<2> simulation(model, physics);
+    SimulationIn<2> simulation(model, physics);
     for (int k = 0; k < 300; ++k) simulation.step();
     const Energies e = simulation.energies();
     EXPECT_GT(e.elastic, 1);
     EXPECT_NEAR(simulation.read(0).load, 0, 1e-6 * 1e6 * 20);  // of 20 m2 of wall
     EXPECT_NEAR(simulation.read(0).displacement, 0, 1e-12);
-}
-
-TEST(Damage, BondBreaksJustPastTheCriticalStretchAndNotBefore) {
-    for (const double sign : {1.0, -1.0}) {
-        Model<2> model = plate(2, 1, 1, breakable(0.05));
-        ASSERT_EQ(model.bonds.count(), 1);
-        const auto law = make_elastic_law<2>(model, Elasticity::moment_matched,
-                                             break_limits(model, break_strains(model, {})));
-        const auto passed = [&](double strain) {
-            model.particles.displacement[1].x() = sign * strain;
-            law->displaced(model, 0, 2);
-            return !law->sum_forces(model).empty();
-        };
-        EXPECT_FALSE(passed(0.05 - 1e-12));
-        EXPECT_TRUE(passed(0.05 + 1e-12));
-        model.particles.displacement[1].x() = sign * 0.05;
-        EXPECT_NEAR(bond_strain<2>({1, 0}, {sign * 0.05, 0}), sign * 0.05, 1e-16);
-    }
-}
-
-TEST(Damage, TensionOnlySparesShortenedBonds) {
-    Material m = breakable(0.05);
-    m.tension_only = true;
-    const Model<2> model = plate(2, 1, 1, m);
-    const BreakLimits limits = break_limits(model, break_strains(model, {}));
-    EXPECT_EQ(limits.lower[0], -std::numeric_limits<double>::infinity());
-    EXPECT_DOUBLE_EQ(limits.upper[0], 0.05 * 2.05);
-}
-
-TEST(Damage, HeldAndNoFailBondsNeverBreak) {
-    Model<2> model = plate(6, 3, 1, breakable(0.05));
-    Physics physics;
-    physics.holds = {clamp_left(model, 2)};
-    physics.loads = {test::pull(model, where(model, [](const Vec<2>& X) { return X.x() > 4; }), {1, 0}, 1)};
-    physics.loads[0].no_fail = true;
-    const std::vector<double> strains = break_strains(model, physics);
-    int safe = 0;
-    for (int b = 0; b < model.bonds.count(); ++b) {
-        const double x = model.particles.reference_position[model.bonds.first[b]].x();
-        const double y = model.particles.reference_position[model.bonds.second[b]].x();
-        const bool expected = (x < 2 && y < 2) || (x > 4 && y > 4);
-        EXPECT_EQ(strains[b] == std::numeric_limits<double>::infinity(), expected);
-        safe += expected;
-    }
-    EXPECT_GT(safe, 0);
-}
-
-TEST(Damage, WeibullStrengthsFollowTheirDistributionAndTheirSeed) {
-    Material m = breakable(0.1);
-    m.weibull = Weibull{.shape = 5, .seed = 3};
-    const Model<2> model = plate(60, 60, 1, m);
-    std::vector<double> strains = break_strains(model, {});
-    EXPECT_EQ(strains, break_strains(model, {}));
-    std::sort(strains.begin(), strains.end());
-    // Kolmogorov-Smirnov distance to 1 - exp(-(e / 0.1)^5): 1.63 / sqrt(n) at the 1 % level
-    double distance = 0;
-    const double n = static_cast<double>(strains.size());
-    for (std::size_t k = 0; k < strains.size(); ++k)
-        distance = std::max(
-            distance, std::abs(1 - std::exp(-std::pow(strains[k] / 0.1, 5)) - static_cast<double>(k) / n));
-    EXPECT_LE(distance, 1.63 / std::sqrt(n));
-    Model<2> other = model;
-    other.materials[0].weibull->seed = 4;
-    EXPECT_NE(break_strains(other, {}).front(), break_strains(model, {}).front());
-}
-
-TEST(Damage, FractureEnergyLimitFallsWithTheRootOfTheSpacing) {
-    Material m = test::concrete();
-    m.fracture_energy = 100;
-    const auto limit = [&](double l0, double length) {
-        return fracture_strain(m, Assumption::plane_stress, 2.1, l0, length);
-    };
-    EXPECT_NEAR(limit(0.01, 0.01) / limit(0.04, 0.04), 2, 1e-12);
-    EXPECT_NEAR(limit(0.01, 0.01) / limit(0.01, 0.03), std::pow(2, -0.1), 1e-12);
-    const Model<2> model = plate(3, 3, 0.5, m);
-    const std::vector<double> strains = break_strains(model, {});
-    for (int b = 0; b < model.bonds.count(); ++b)
-        EXPECT_DOUBLE_EQ(strains[b], limit(0.5, model.bonds.rest_length[b]));
-}
-
-TEST(Damage, PlaneStrainFractureIsPlaneStressOfTheEquivalentConstants) {
-    Material strain = test::concrete(), stress = strain;
-    strain.fracture_energy = stress.fracture_energy = 100;
-    stress.youngs_modulus /= 1 - 0.3 * 0.3;
-    stress.poissons_ratio = 0.3 / 0.7;
-    EXPECT_NEAR(fracture_strain(strain, Assumption::plane_strain, 2.3, 1, 1),
-                fracture_strain(stress, Assumption::plane_stress, 2.3, 1, 1), 1e-15);
-    strain.poissons_ratio = 0.45;
-    EXPECT_TRUE(fracture_is_calibrated(strain, Assumption::plane_strain, 1.5));
-    EXPECT_FALSE(fracture_is_calibrated(strain, Assumption::plane_strain, 3.5));
-    strain.poissons_ratio = -0.1;
-    EXPECT_FALSE(fracture_is_calibrated(strain, Assumption::plane_strain, 2.1));
 }
 
 TEST(Simulation, MirrorSymmetricSceneStaysSymmetricUpToFirstBreak) {
@@ -415,10 +274,10 @@ TEST(Simulation, MirrorSymmetricSceneStaysSymmetricUpToFirstBreak) {
                                 {5e7, 0}, 0.2),
                      test::pull(model, where(model, [](const Vec<2>& X) { return X.x() < 1 && X.y() > 5; }),
                                 {-5e7, 0}, 0.2)};
-    Simulation<2> simulation(model, physics);
+    SimulationIn<2> simulation(model, physics);
     while (simulation.broken() == 0 && simulation.time() < 2) simulation.step();
     ASSERT_GT(simulation.broken(), 0);
-    const auto& u = simulation.model().particles.displacement;
+    const auto& u = simulation.state().displacement;
     double largest = 0, asymmetry = 0;
     for (int row = 0; row < 10; ++row) {
         for (int column = 0; column < 20; ++column) {
@@ -437,18 +296,17 @@ TEST(Simulation, ANonFiniteStateIsReportedWithStepTimeAndParticle) {
     physics.loads[0].value[0] =
         Field([](const Vec3&, double t) { return t > 0.01 ? std::numeric_limits<double>::quiet_NaN() : 0.0; },
               false, true, "");
-    Simulation<2> simulation(model, physics);
+    SimulationIn<2> simulation(model, physics);
     while (!simulation.failure() && simulation.time() < 1) simulation.step();
     ASSERT_TRUE(simulation.failure());
-    EXPECT_EQ(simulation.failure()->particle, 5);
-    EXPECT_NE(simulation.failure()->message.find("particle 5 (body \"plate\")"), std::string::npos);
+    EXPECT_NE(simulation.failure()->find("particle 5 (body \"plate\")"), std::string::npos);
 }
 
 TEST(Simulation, TheStepOfASceneHoldsOnlyWhatItAsksFor) {
-    const Simulation<2> bare(plate(4, 3, 1), {});
+    const SimulationIn<2> bare(plate(4, 3, 1), {});
     EXPECT_EQ(bare.stage_names(),
               (std::vector<std::string>{"half kick and drift", "bond forces (moment-matched), half kick"}));
-    const Simulation<2> full = cantilever(10);
+    const SimulationIn<2> full = cantilever(10);
     EXPECT_EQ(full.stage_names().size(), 4u);  // and applied loads, judging
 }
 

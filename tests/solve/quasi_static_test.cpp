@@ -25,7 +25,7 @@ struct Cantilever {
         model = test::plate(10, 5, 4, brittle);
         physics.holds = {
             {"clamp", test::where(model, [](const Vec<2>& X) { return X.x() < 4; }), {true, true, false}}};
-        period = 2 * std::numbers::pi / first_frequency(model, Simulation<2>(model, physics).held());
+        period = 2 * std::numbers::pi / first_frequency(model, SimulationIn<2>(model, physics).held());
     }
 
     struct Broken {
@@ -39,7 +39,7 @@ struct Cantilever {
         p.loads = {test::pull(model, test::where(model, [](const Vec<2>& X) { return X.x() > 36; }),
                               {0, -10 * about}, ramp)};
         if (ratio > 0) p.damping = Damping{.ratio = ratio};
-        Simulation<2> simulation(model, p);
+        SimulationIn<2> simulation(model, p);
         while (simulation.broken() == 0 && simulation.time() < ramp) simulation.step();
         return {10 * about * simulation.time() / ramp, simulation.time() / period};
     }
@@ -82,7 +82,7 @@ TEST(RampBias, AtTenPeriodsIsBelowOnePerCent) {
 TEST(FirstPeriod, IsThatOfTheDampingOrFoundOrNone) {
     const auto period = [](const std::string& before) {
         const Built<2> built = build(parse_scene(before, "s.toml"));
-        const Simulation<2> simulation(built.model, built.physics);
+        const SimulationIn<2> simulation(built.model, built.physics);
         const auto found = first_period(built, simulation);
         if (found) {
             EXPECT_NEAR(damping_ratio(simulation, *found), before[0] == 'd' ? 0.3 : 0, 1e-9);

@@ -56,9 +56,9 @@ Recorded record(int columns, int rows, const Scene& scene, double break_strain) 
     material.break_strain = break_strain;
     Model<2> model = test::plate(columns, rows, 1, material);
     for (int i = 0; i < model.particles.count(); ++i)
-        model.particles.velocity[i].x() = 0.5 * (model.particles.reference_position[i].x() - columns / 2.0);
-    Simulation<2> simulation(std::move(model), {});
-    Watch<2> watch(simulation);
+        model.particles.initial_velocity[i].x() = 0.5 * (model.particles.reference_position[i].x() - columns / 2.0);
+    SimulationIn<2> simulation(std::move(model), {});
+    const auto monitor = make_run_monitor(simulation);
     const TemporaryFolder folder;
     StageTimes times({});
     RunWriter writer(folder.path(), {}, &times);
@@ -72,10 +72,10 @@ Recorded record(int columns, int rows, const Scene& scene, double break_strain) 
     topology.second = simulation.model().bonds.second;
     topology.rest_length = simulation.model().bonds.rest_length;
     writer.topology(topology);
-    Recorder recorder(scene, simulation, watch, writer);
+    Recorder recorder(scene, simulation, *monitor, writer);
     while (simulation.time() < scene.run.max_time) {
         simulation.step();
-        watch.look();
+        monitor->look();
         recorder.look();
     }
     recorder.finish();
@@ -83,7 +83,7 @@ Recorded record(int columns, int rows, const Scene& scene, double break_strain) 
     Recorded recorded{.stable_time_step = simulation.stable_time_step(), .time_step = simulation.time_step()};
     for (const StageTime& stage : times.list())
         if (stage.name == "write states") recorded.written = stage.calls;
-    const double first_break = watch.events().first_break ? watch.events().first_break->time : 1e9;
+    const double first_break = monitor->events().first_break ? monitor->events().first_break->time : 1e9;
     recorded.first_break = first_break;
     const RunReader run(folder.path());
     for (const StateInfo& state : run.states())

@@ -65,7 +65,8 @@ inline Model<2> cracked_strip(const StripCase& c) {
 
 /// Second derivative of the energy of particle p by the displacements of `members`, p first, then the other
 /// ends of its bonds (N/m); broken bonds carry nothing. The slow, obvious counterpart of tangent.
-inline Eigen::MatrixXd stiffness_of_particle(const Model<2>& model, const BondWeights& weights, int p,
+inline Eigen::MatrixXd stiffness_of_particle(const Model<2>& model, const State<2>& state,
+                                             const BondWeights& weights, int p,
                                              std::vector<int>& members) {
     const Bonds& bonds = model.bonds;
     const Particles<2>& particles = model.particles;
@@ -79,7 +80,7 @@ inline Eigen::MatrixXd stiffness_of_particle(const Model<2>& model, const BondWe
     for (int k = 0; k < count; ++k) {
         const int b = bonds.bonds_of[bonds.start[p] + k], j = bonds.other(b, p), at = 2 + 2 * k;
         members.push_back(j);
-        if (!bonds.is_intact(b)) continue;
+        if (!state.is_intact(b)) continue;
         const double s = bonds.first[b] == p ? weights.forward[b] : weights.backward[b];
         const Vec<2> r0 = particles.reference_position[j] - particles.reference_position[p];
         const double spring = s / r0.squaredNorm();
@@ -109,7 +110,10 @@ class CrackGrowth {
     /// Particles less than `ahead` spacings before, `behind` behind and `beside` beside the tip may be
     /// touched.
     explicit CrackGrowth(const StripCase& c, double ahead = 9, double behind = 7, double beside = 8)
-        : case_(c), model_(cracked_strip(c)), weights_(moment_matched_weights(model_)) {
+        : case_(c),
+          model_(cracked_strip(c)),
+          state_(initial_state(model_)),
+          weights_(moment_matched_weights(model_)) {
         const Particles<2>& particles = model_.particles;
         const int n = particles.count();
         const Vec<2> tip = c.tip();
@@ -152,8 +156,8 @@ class CrackGrowth {
     /// Breaks what reaches its limit first, again and again, until the crack has grown by `growth` spacings
     /// or a no bond is left that may. `limit` gives the strain at which a bond of that length (m) breaks.
     std::vector<Break> grow(const std::function<double(double)>& limit, double growth) {
-        Bonds& bonds = model_.bonds;
-        bonds.broken_at.assign(bonds.broken_at.size(), Bonds::intact);
+        const Bonds& bonds = model_.bonds;
+        state_ = initial_state(model_);
         const double l0 = case_.spacing();
         const int local = static_cast<int>(at_rest_.size());
         change_ = Eigen::MatrixXd::Zero(local, local);
@@ -171,7 +175,7 @@ class CrackGrowth {
             double most = 0;
             for (std::size_t k = 0; k < watched.size(); ++k) {
                 const int b = watched[k];
-                if (!bonds.is_intact(b)) continue;
+                if (!state_.is_intact(b)) continue;
                 const double over = strain(u, b) / limits[k];
                 if (over > most) most = over, weakest = b;
             }
@@ -183,7 +187,7 @@ class CrackGrowth {
             if (middle.x() >= growth) return breaks;
             const int ends[] = {bonds.first[weakest], bonds.second[weakest]};
             for (const int p : ends) add(p, -1);
-            bonds.broken_at[weakest] = 0;
+            state_.broken_at[weakest] = 0;
             for (const int p : ends) add(p, 1);
             u = changed(change_);
         }
@@ -197,6 +201,7 @@ class CrackGrowth {
  private:
     StripCase case_;
     Model<2> model_;
+    State<2> state_;
     BondWeights weights_;
     std::vector<int> near_, list_;  ///< index near the tip of every particle, or -1; and back
     Eigen::VectorXd load_, at_rest_;
@@ -204,7 +209,7 @@ class CrackGrowth {
 
     using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
     std::unique_ptr<Factors> factors() const {
-        Eigen::SparseMatrix<double> K = tangent(model_);
+        Eigen::SparseMatrix<double> K = tangent(model_, state_);
         for (const int dof : pinned()) K.coeffRef(dof, dof) *= 1e9;
         auto solver = std::make_unique<Factors>(K);
         if (solver->info() != Eigen::Success) throw std::runtime_error("the strip cannot be solved");
@@ -247,7 +252,7 @@ class CrackGrowth {
     }
     void add(int p, double sign) {
         std::vector<int> members;
-        const Eigen::MatrixXd K = stiffness_of_particle(model_, weights_, p, members);
+        const Eigen::MatrixXd K = stiffness_of_particle(model_, state_, weights_, p, members);
         for (std::size_t a = 0; a < members.size(); ++a)
             for (std::size_t b = 0; b < members.size(); ++b)
                 change_.block<2, 2>(2 * near_[members[a]], 2 * near_[members[b]]) +=

@@ -7,7 +7,8 @@ namespace hibi::test {
 /// The judge of the fast loops: forces of the moment-matched law by one plain loop over the bonds of each
 /// particle, straight from the model and in the order that the fast loops promise to keep.
 ///     f_i = sum_j [ spring du + (s_ij P_i + s_ji P_j) r0 / |r0|^2 ],  P = -2 mu (R - I) + lambda D R
-inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const ElasticCoefficients& coefficients) {
+inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const State<2>& state,
+                                         const ElasticCoefficients& coefficients) {
     const Particles<2>& particles = model.particles;
     const Bonds& bonds = model.bonds;
     const BondWeights& s = coefficients.s;
@@ -21,11 +22,11 @@ inline std::vector<Vec<2>> plain_forces(const Model<2>& model, const ElasticCoef
     const auto each_bond = [&](int i, auto&& visit) {
         for (int k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
             const int b = bonds.bonds_of[k], j = bonds.other(b, i);
-            if (!bonds.is_intact(b)) continue;
+            if (!state.is_intact(b)) continue;
             const bool forward = bonds.first[b] == i;
             const Vec<2> r0 = (forward ? 1 : -1) * model.bond_vectors[b];
             const double square = r0.squaredNorm();
-            visit(Seen{j, r0, particles.displacement[j] - particles.displacement[i],
+            visit(Seen{j, r0, state.displacement[j] - state.displacement[i],
                        (forward ? s.forward[b] : s.backward[b]) / square,
                        (forward ? s.backward[b] : s.forward[b]) / square});
         }

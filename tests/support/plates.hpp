@@ -2,7 +2,7 @@
 #include <random>
 #include <string>
 
-#include "model/model.hpp"
+#include "model/state.hpp"
 #include "physics/physics.hpp"
 
 namespace hibi::test {
@@ -35,12 +35,13 @@ std::vector<int> where(const Model<2>& model, Condition condition) {
 }
 
 /// Every seventh bond, as if it had broken at t = 0.
-inline void break_every_seventh(Model<2>& model) {
-    for (int b = 0; b < model.bonds.count(); b += 7) model.bonds.broken_at[b] = 0;
+inline void break_every_seventh(State<2>& state) {
+    for (std::size_t b = 0; b < state.broken_at.size(); b += 7) state.broken_at[b] = 0;
 }
 
 /// Turned by `angle` about the origin, then disturbed at random by up to `noise` spacings; a fixed seed.
-inline void turn_and_shake(Model<2>& model, double angle, double noise, unsigned seed = 1) {
+inline void turn_and_shake(const Model<2>& model, State<2>& state, double angle, double noise,
+                           unsigned seed = 1) {
     std::mt19937 random(seed);
     Mat<2> R;
     R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
@@ -50,7 +51,7 @@ inline void turn_and_shake(Model<2>& model, double angle, double noise, unsigned
             return noise * model.particles.spacing[i] * (static_cast<double>(random()) / 0x1p31 - 1);
         };
         const double dx = shake(), dy = shake();
-        model.particles.displacement[i] = R * X - X + Vec<2>(dx, dy);
+        state.displacement[i] = R * X - X + Vec<2>(dx, dy);
     }
 }
 
