@@ -38,20 +38,20 @@ struct Steps {
     explicit Steps(BuiltScene setup)
         : scene(std::move(setup.scene)),
           simulation(std::move(setup.built.model), std::move(setup.built.physics)),
-          watch(simulation) {}
+          monitor(make_run_monitor(simulation)) {}
 
     Scene scene;
-    Simulation<2> simulation;
-    Watch<2> watch;
+    SimulationIn<2> simulation;
+    std::unique_ptr<RunMonitor> monitor;
 };
 
 TEST(RunToEnd, CallsBackAfterEachStepUntilTheSceneEnds) {
     Steps s(hanging(R"(max_time = "1 s")"));
     std::int64_t calls = 0;
-    const auto obstacle = run_to_end(s.scene, s.simulation, s.watch, [&]() -> std::optional<std::string> {
+    const auto obstacle = run_to_end(s.scene, s.simulation, *s.monitor, [&]() -> std::optional<std::string> {
         ++calls;
         EXPECT_EQ(s.simulation.steps(), calls);
-        EXPECT_EQ(s.watch.events().end, s.simulation.time()) << "the watch has looked";
+        EXPECT_EQ(s.monitor->events().end, s.simulation.time()) << "the monitor has looked";
         return {};
     });
     EXPECT_FALSE(obstacle);
@@ -62,7 +62,7 @@ TEST(RunToEnd, CallsBackAfterEachStepUntilTheSceneEnds) {
 
 TEST(RunToEnd, StopsWhereTheCallerSaysSo) {
     Steps s(hanging(R"(max_time = "1 s")"));
-    const auto obstacle = run_to_end(s.scene, s.simulation, s.watch, [&]() -> std::optional<std::string> {
+    const auto obstacle = run_to_end(s.scene, s.simulation, *s.monitor, [&]() -> std::optional<std::string> {
         if (s.simulation.steps() == 3) return "enough";
         return {};
     });
@@ -73,9 +73,9 @@ TEST(RunToEnd, StopsWhereTheCallerSaysSo) {
 TEST(RunToEnd, ReleasesALoadAtItsMomentBeforeTheCallerLooks) {
     Steps s(hanging(R"(max_time = "1 s")", R"(until = "0.5 s")"));
     int loaded = 0, released = 0;
-    run_to_end(s.scene, s.simulation, s.watch, [&]() -> std::optional<std::string> {
+    run_to_end(s.scene, s.simulation, *s.monitor, [&]() -> std::optional<std::string> {
         const bool before = s.simulation.time() < 0.5;
-        EXPECT_EQ(s.watch.row().load, before ? 10 : 0) << s.simulation.time();
+        EXPECT_EQ(s.monitor->row().load, before ? 10 : 0) << s.simulation.time();
         ++(before ? loaded : released);
         return {};
     });
@@ -85,20 +85,20 @@ TEST(RunToEnd, ReleasesALoadAtItsMomentBeforeTheCallerLooks) {
 
 TEST(RunToEnd, ASceneThatWaitsForASeparationNeedsSomethingThatHolds) {
     const BuiltScene setup = hanging("until = \"separation\"\nmax_time = \"1 s\"");
-    const Simulation<2> held(setup.built.model, setup.built.physics);
-    EXPECT_NO_THROW(require_separable(setup.scene, Watch<2>(held)));
+    const SimulationIn<2> held(setup.built.model, setup.built.physics);
+    EXPECT_NO_THROW(require_separable(setup.scene, *make_run_monitor(held)));
     Scene scene = setup.scene;
     Physics physics = setup.built.physics;
     physics.holds.clear();
-    const Simulation<2> free(setup.built.model, physics);
-    EXPECT_THROW(require_separable(scene, Watch<2>(free)), SceneErrors);
+    const SimulationIn<2> free(setup.built.model, physics);
+    EXPECT_THROW(require_separable(scene, *make_run_monitor(free)), SceneErrors);
     scene.run.until.reset();
-    EXPECT_NO_THROW(require_separable(scene, Watch<2>(free)));
+    EXPECT_NO_THROW(require_separable(scene, *make_run_monitor(free)));
 }
 
 TEST(RunToEnd, ARunOfMoreStepsThanAnyoneCanWaitForIsRefused) {
     const BuiltScene setup = hanging(R"(max_time = "1 s")");
-    const Simulation<2> simulation(setup.built.model, setup.built.physics);
+    const SimulationIn<2> simulation(setup.built.model, setup.built.physics);
     EXPECT_NO_THROW(require_steps_that_end(setup.scene, simulation));
     Scene scene = setup.scene;
     scene.run.max_time = 1.1e9 * simulation.time_step();
