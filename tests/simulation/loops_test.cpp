@@ -36,7 +36,8 @@ TEST(Loops, RenewedAfterBreaksAreThoseOfTheWholeBody) {
         simulation.step();
         if (simulation.just_broken().empty()) continue;
         ++breaking_steps;
-        EXPECT_TRUE(simulation.state().force == test::plain_forces(simulation.model(), simulation.state(), coefficients));
+        EXPECT_TRUE(simulation.state().force ==
+                    test::plain_forces(simulation.model(), simulation.state(), coefficients));
     }
     EXPECT_EQ(breaking_steps, 20);
 }

@@ -38,22 +38,20 @@ struct Steps {
     explicit Steps(BuiltScene setup)
         : scene(std::move(setup.scene)),
           simulation(std::move(setup.built.model), std::move(setup.built.physics)),
-          monitor_(make_run_monitor(simulation)),
-          monitor(*monitor_) {}
+          monitor(make_run_monitor(simulation)) {}
 
     Scene scene;
     SimulationIn<2> simulation;
-    std::unique_ptr<RunMonitor> monitor_;
-    RunMonitor& monitor;
+    std::unique_ptr<RunMonitor> monitor;
 };
 
 TEST(RunToEnd, CallsBackAfterEachStepUntilTheSceneEnds) {
     Steps s(hanging(R"(max_time = "1 s")"));
     std::int64_t calls = 0;
-    const auto obstacle = run_to_end(s.scene, s.simulation, s.monitor, [&]() -> std::optional<std::string> {
+    const auto obstacle = run_to_end(s.scene, s.simulation, *s.monitor, [&]() -> std::optional<std::string> {
         ++calls;
         EXPECT_EQ(s.simulation.steps(), calls);
-        EXPECT_EQ(s.monitor.events().end, s.simulation.time()) << "the monitor has looked";
+        EXPECT_EQ(s.monitor->events().end, s.simulation.time()) << "the monitor has looked";
         return {};
     });
     EXPECT_FALSE(obstacle);
@@ -64,7 +62,7 @@ TEST(RunToEnd, CallsBackAfterEachStepUntilTheSceneEnds) {
 
 TEST(RunToEnd, StopsWhereTheCallerSaysSo) {
     Steps s(hanging(R"(max_time = "1 s")"));
-    const auto obstacle = run_to_end(s.scene, s.simulation, s.monitor, [&]() -> std::optional<std::string> {
+    const auto obstacle = run_to_end(s.scene, s.simulation, *s.monitor, [&]() -> std::optional<std::string> {
         if (s.simulation.steps() == 3) return "enough";
         return {};
     });
@@ -75,9 +73,9 @@ TEST(RunToEnd, StopsWhereTheCallerSaysSo) {
 TEST(RunToEnd, ReleasesALoadAtItsMomentBeforeTheCallerLooks) {
     Steps s(hanging(R"(max_time = "1 s")", R"(until = "0.5 s")"));
     int loaded = 0, released = 0;
-    run_to_end(s.scene, s.simulation, s.monitor, [&]() -> std::optional<std::string> {
+    run_to_end(s.scene, s.simulation, *s.monitor, [&]() -> std::optional<std::string> {
         const bool before = s.simulation.time() < 0.5;
-        EXPECT_EQ(s.monitor.row().load, before ? 10 : 0) << s.simulation.time();
+        EXPECT_EQ(s.monitor->row().load, before ? 10 : 0) << s.simulation.time();
         ++(before ? loaded : released);
         return {};
     });
