@@ -48,9 +48,9 @@ Content<2> content_by_lines(const Shape<2>& shape) {
     for (std::size_t k = 1; k < heights.size(); ++k) {
         const double middle = (heights[k - 1] + heights[k]) / 2, half = (heights[k] - heights[k - 1]) / 2;
         for (int line = 0; line < lines; ++line) {
-            const double angle = pi * ((line + 0.5) / lines - 0.5);
-            const double y = middle + half * std::sin(angle);
-            const double thickness = half * std::cos(angle) * pi / lines;
+            const auto height = [&](double at) { return half * std::sin(pi * (at / lines - 0.5)); };
+            const double y = middle + height(line + 0.5);
+            const double thickness = height(line + 1) - height(line);
             const Vec<2> left(box.low.x() - width / 2, y), right(box.high.x() + width / 2, y);
             for (const Span& span : spans(shape, left, right)) {
                 const double begin = span.begin * 2 * width, end = span.end * 2 * width;

@@ -1,6 +1,7 @@
 #include "model/matter.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/parallel.hpp"
 #include "model/sideways.hpp"
@@ -32,8 +33,10 @@ Matter<Dim>::Matter(const Model<Dim>& model, const std::vector<int>& members)
         boxes_[b] = bounding_box(body.shape);
         convex_[b] = is_convex(body.shape);
         if (convex_[b]) continue;
-        // A bond that meets a side has one of its ends within half its length of it.
-        const double reach = (model.influence / 2 + slack_per_spacing) * body.spacing;
+        // A way that meets a side has one of its ends within half its length of it. Jitter may have brought
+        // the particles of two cells closer.
+        const double closer = std::sqrt(Dim) * body.lattice.jitter;
+        const double reach = (model.influence / 2 + closer + slack_per_spacing) * body.spacing;
         parallel_for(body.end - body.begin, [&](int begin, int end) {
             for (int i = body.begin + begin; i < body.begin + end; ++i)
                 near_a_side_[i] = depth(body.shape, model.cell_centre(i)) < reach;
@@ -47,10 +50,12 @@ bool Matter<Dim>::joins(int i, int j) const {
     if (from == to && (convex_[from] || (!near_a_side_[i] && !near_a_side_[j]))) return true;
     const Vec<Dim> a = model_.cell_centre(i), b = model_.cell_centre(j);
     if (along({a, b}, from, to)) return true;
-    const Vec<Dim> quarter = (b - a) / 4;
     for (const Vec<Dim>& direction : sideways<Dim>(b - a)) {
         const Vec<Dim> bend = most_bend * model_.particles.spacing[i] * direction;
-        if (along({a, a + quarter + bend, b - quarter + bend, b}, from, to)) return true;
+        for (const double slope : {0.25, 0.0}) {  // of the length, in which it bends aside and back
+            const Vec<Dim> step = slope * (b - a) + bend, back = slope * (a - b) + bend;
+            if (along({a, a + step, b + back, b}, from, to)) return true;
+        }
     }
     return false;
 }

@@ -34,20 +34,16 @@ struct Crossing {
     bool leaving = false;  ///< the segment leaves the polygon here
 };
 
-/// Does the crossing lie on the segment? A segment that ends on a side does not cross it, unless it comes
-/// from outside or goes there. Moves `at` to the end it belongs to.
+/// Does the crossing lie on the segment? Where the sides belong to the polygon (the slack is not negative), a
+/// segment that ends on a side crosses it only if it comes from outside or goes there; else, if it comes from
+/// inside or goes there. Moves `at` to the end it belongs to.
 bool is_on(Crossing& crossing, double length, double slack) {
     const double behind = crossing.at * crossing.sine, ahead = (length - crossing.at) * crossing.sine;
-    if (std::abs(behind) <= slack && std::abs(ahead) <= slack) return false;  // it runs along the side
-    if (std::abs(behind) <= slack) {
-        crossing.at = 0;
-        return crossing.leaving;
-    }
-    if (std::abs(ahead) <= slack) {
-        crossing.at = length;
-        return !crossing.leaving;
-    }
-    return crossing.at > 0 && crossing.at < length;
+    const bool at_first = std::abs(behind) <= std::abs(slack), at_last = std::abs(ahead) <= std::abs(slack);
+    if (at_first && at_last) return false;  // it runs along the side
+    if (!at_first && !at_last) return crossing.at > 0 && crossing.at < length;
+    crossing.at = at_first ? 0 : length;
+    return (crossing.leaving == at_first) == (slack >= 0);
 }
 
 /// Corners on the line of the segment take the side of those before and behind them, so an outline that only
@@ -58,7 +54,7 @@ std::vector<Crossing> crossings(const std::vector<Vec<2>>& corners, const Vec<2>
     const auto height = [&](std::size_t k) { return cross(along, corners[k % n] - p); };
     const auto place = [&](std::size_t k) { return along.dot(corners[k % n] - p); };
     std::size_t first = 0;
-    while (first < n && std::abs(height(first)) <= slack) ++first;
+    while (first < n && std::abs(height(first)) <= std::abs(slack)) ++first;
     if (first == n) return {};
     const bool counter_clockwise = sums(corners).area > 0;
     std::vector<Crossing> found;
@@ -66,7 +62,7 @@ std::vector<Crossing> crossings(const std::vector<Vec<2>>& corners, const Vec<2>
     std::size_t last_off = first;
     for (std::size_t k = first + 1; k <= first + n; ++k) {
         const double here = height(k);
-        if (std::abs(here) <= slack) continue;
+        if (std::abs(here) <= std::abs(slack)) continue;
         if ((here > 0) != (before > 0)) {
             Crossing crossing{.leaving = (before < 0) == counter_clockwise};
             if (last_off + 1 == k) {
@@ -135,8 +131,7 @@ Spans spans(const Polygon& polygon, const Vec<2>& p, const Vec<2>& q, double sla
     int layers = depth(polygon, p) >= -slack ? 1 : 0;
     double open = 0;
     Spans result;
-    for (const Crossing& crossing :
-         crossings(polygon.corners, p, (q - p) / length, length, std::abs(slack))) {
+    for (const Crossing& crossing : crossings(polygon.corners, p, (q - p) / length, length, slack)) {
         const double at = crossing.at / length;
         // On a slit without width the segment may enter the one side before it leaves the other.
         if (layers == 1) result.push_back({open, at});
