@@ -1,4 +1,4 @@
-// More than 400 lines: the functions of a grammar call each other and are read together.
+// Longer than 400 lines because the functions of a grammar call each other and are read together.
 #include <fmt/format.h>
 
 #include <cctype>

@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
               "   23 | damping = \"quasi-static\"\n"
               "      | ^^^^^^^ it stands at the top of the file, above the first block"},
         Wrong{"AFreePartWithADampingRatio", "hold = [\"x\", \"y\"]", "hold = [\"x\"]\n[damping]\nratio = 0.3",
-              "s.toml:20:9: error: [damping] ratio: the part of the model at (38 m, 18 m) can move freely, "
+              "s.toml:20:9: error: [damping] ratio: the part of the model at (2 m, 2 m) can move freely, "
               "so there is no "
               "first mode\n"
               "   20 | ratio = 0.3\n"
