@@ -28,8 +28,8 @@ VelocityVerlet<Dim>::VelocityVerlet(const Model<Dim>& model, const Physics& phys
     state.energies.kinetic =
         parallel_sum<double>(n, [&](int begin, int end) { return kinetic_energy_of(state, begin, end); });
     // What is there at the start was put in.
-    state.energies.work =
-        state.energies.kinetic + interactions_.elastic().law().energy(state);
+    const Energies there = interactions_.energies(state);
+    state.energies.work = there.kinetic + there.elastic + there.contact;
 }
 
 template <int Dim>
