@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "app/estimate.hpp"
@@ -123,6 +124,21 @@ void add_spacing_note(const Scene& scene, const Built<2>& built, std::vector<std
         built.model.bonds_cut > 0 ? "the tip of a notch" : fmt::format("the support \"{}\"", clamp->name)));
 }
 
+/// Bodies that are to be glued and are not.
+void add_glue_notes(const Model<2>& model, std::vector<std::string>& notes) {
+    std::set<std::pair<int, int>> glued;
+    for (int b = 0; b < model.bonds.count(); ++b)
+        glued.insert(std::minmax({model.particles.body[model.bonds.first[b]],
+                                  model.particles.body[model.bonds.second[b]]}));
+    for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
+        for (const int other : model.bodies[b].bonded_to)
+            if (!glued.contains({other, b}))
+                notes.push_back(fmt::format(
+                    "body \"{}\": bonded_to holds \"{}\", but no bond joins the two; bonds reach across no more "
+                    "than half a spacing of empty space",
+                    model.bodies[b].name, model.bodies[other].name));
+}
+
 /// What a user might not expect of a scene that is right.
 std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, const Facts& facts) {
     std::vector<std::string> notes;
@@ -162,7 +178,8 @@ std::vector<std::string> notes_on(const Scene& scene, const Built<2>& built, con
         alone += built.model.bonds.start[i] == built.model.bonds.start[i + 1];
     if (alone > 0)
         notes.push_back(
-            fmt::format("{} particles have no bond: does a notch run through their centres?", alone));
+            fmt::format("{} particles have no bond: does a notch or a slit run through their centres?", alone));
+    add_glue_notes(built.model, notes);
     for (const Body<2>& body : built.model.bodies) {
         Vec<2> low = built.model.particles.reference_position[body.begin], high = low;
         for (int i = body.begin; i < body.end; ++i) {

@@ -119,6 +119,47 @@ TEST_F(CheckOf, RemarksThatABreakStrainAtAClampOrNotchDependsOnTheSpacing) {
     EXPECT_FALSE(has_note(of(with("hold = [\"x\", \"y\"]", "hold = [\"x\"]")), words));
 }
 
+/// What `hibi check` says of a scene in text.
+std::string report_on(const std::string& bodies) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "s.toml";
+    std::ofstream(file) << R"(version = 1
+title = "s"
+[material.m]
+density = 1
+youngs_modulus = 1
+poissons_ratio = 0.3
+)" << bodies << "[run]\nmax_time = 1\n";
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(check_command({file, {}, false}), 0);
+    std::fflush(stdout);
+    return testing::internal::GetCapturedStdout();
+}
+
+TEST(Check, TellsMassAndCentreErrorsAndBondsThatWouldCrossEmptySpace) {
+    // Of 3.5 columns four are filled: their centre of mass is 2, the centroid 1.75.
+    const std::string text = report_on(R"(
+[[body]]
+material = "m"
+polygon = [[0, 0], [3.5, 0], [3.5, 6], [0, 6]]
+spacing = 1
+[[body]]
+material = "m"
+polygon = [[10, 0], [20, 0], [20, 4], [12, 4], [12, 5], [20, 5], [20, 9], [10, 9]]
+spacing = 1
+[[body]]
+material = "m"
+box = [[20.6, 0], [24.6, 4]]
+spacing = 1
+bonded_to = ["body2"]
+)");
+    for (const char* part : {"area and mass +14.29 %, centre of mass off by (0.25, 0.00) spacings\n",
+                             "82 particles of 1 m, 82 kg; area and mass +0.00 %\n",
+                             " not made, for they would cross empty space\n",
+                             "body \"body3\": bonded_to holds \"body2\", but no bond joins the two"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+}
+
 class New : public testing::Test {
  protected:
     void SetUp() override {

@@ -94,6 +94,62 @@ TEST(Build, DirectionOfAVaryingLoadIsThatOfItsSumAtFullRamp) {
     EXPECT_NEAR((built.physics.loads.at(0).direction - Vec3(0.6, 0.8, 0)).norm(), 0, 1e-12);
 }
 
+TEST(Build, ALoadThatIsZeroAtFullRampIsReportedAlongItsLargestTotal) {
+    const std::vector<std::pair<const char*, Vec3>> loads{
+        {"force = [0, \"-9 kN * sin(pi*t/(60 s))\"]", {0, -1, 0}},
+        {"force = [0, \"-9 kN * step(t - 50 s)\"]", {0, -1, 0}},
+        // Of two equal peaks the first.
+        {"force = [0, \"9 kN * sin(2*pi*t/(60 s))\"]", {0, 1, 0}},
+        {"displacement = [\"free\", \"-1 m * sin(pi*t/(40 s)) * step(40 s - t)\"]\nramp = \"40 s\"",
+         {0, -1, 0}},
+        {"velocity = [\"-3 m/s * t/(1 s)\", \"4 m/s * t/(1 s)\"]", {-0.6, 0.8, 0}},
+        {"pressure = \"-1 Pa * t/(1 s)\"", {1, 0, 0}},
+        // Short, at any time, however it is written; and too fast for any fixed pace.
+        {"force = [0, \"-1 N * exp(-((t - 33.123 s)/(1 us))^2)\"]", {0, -1, 0}},
+        {"force = [0, \"-1 N * step(t - 7.77 s) * step(7.77001 s - t)\"]", {0, -1, 0}},
+        {"force = [0, \"-1 N * step(t/(1 s) - 7.77) * step(7.77001 - t/(1 s))\"]", {0, -1, 0}},
+        {"force = [0, \"-1 N * max(0, 1 - abs(t - 20 s)/(1 us))\"]", {0, -1, 0}},
+        {"force = [0, \"-1 N * (t*5e6/s) * exp(-t*5e6/s)\"]", {0, -1, 0}},
+        {"force = [0, \"-1 N * abs(sin(2*pi*1e6 Hz*t))\"]", {0, -1, 0}},
+        // A load that hardly acts at full ramp, and then elsewhere.
+        {"force = [\"1 N * exp(-t/(1 s))\", \"-1 kN * step(t - 10 s)\"]", {0, -1, 0}},
+        // A pulse that passes over the particles.
+        {"force = [0, \"-1 N * step(t - 10 s - x/(100 m/s)) * step(11 s - t)\"]", {0, -1, 0}},
+    };
+    for (const auto& [load, direction] : loads) {
+        const std::string selection =
+            std::string(load).starts_with("pressure") ? "face = \"right\"" : "where = \"x > 36 m\"";
+        std::string text = small("ramp = \"40 s\"", "");
+        const std::string old = "where = \"x > 40 m - spacing\"\nforce = [\"0 N\", \"-80 MN\"]";
+        text.replace(text.find(old), old.size(), selection + "\n" + load);
+        const Vec3 found = built_from(text).physics.loads.at(0).direction;
+        EXPECT_LT((found - direction).norm(), 1e-6) << load << " " << found.transpose();
+    }
+}
+
+TEST(Build, ARowOfCentresIsSelectedAtEverySize) {
+    for (const char* size : {"4 m", "0.4 m", "1.2 m", "0.004 m"}) {
+        std::string text = small("spacing = \"4 m\"", std::string("spacing = \"") + size + "\"");
+        text.replace(text.find("[\"40 m\", \"20 m\"]"), 16, "[\"10*spacing\", \"5*spacing\"]");
+        text.replace(text.find("x < spacing"), 11, "x <= 2.5*spacing and not x > 1.5*spacing");
+        text.replace(text.find("x > 40 m - spacing"), 18,
+                     "hypot(x, y) >= hypot(8.5*spacing, 3.5*spacing) and x < 9.5*spacing");
+        const Built<2> built = built_from(text);
+        EXPECT_EQ(built.physics.holds[0].particles.size(), 10u) << size;
+        EXPECT_EQ(built.physics.loads[0].particles, (std::vector<int>{38, 48})) << size;
+    }
+}
+
+TEST(Build, BodiesThatTouchThroughCentresDoNotOverlap) {
+    const Built<2> built = built_from(small(
+        "[[fix]]",
+        "[[body]]\nmaterial = \"concrete\"\ndisc = { centre = [1.7, 30.1], radius = 0.5 }\nspacing = 0.1\n"
+        "[[body]]\nmaterial = \"concrete\"\ndifference = [{ box = [[0.2, 28.6], [3.2, 31.6]] }, { disc = { "
+        "centre = "
+        "[1.7, 30.1], radius = 0.5 } }]\nspacing = 0.1\n[[fix]]"));
+    EXPECT_EQ(built.model.particles.count(), 50 + 900);  // the centres on the circle belong to the disc
+}
+
 TEST(Build, BodiesStartWithTheirVelocityAndSpin) {
     const Built<2> built = built_from(small(
         "spacing = \"spacing\"", "spacing = \"spacing\"\nvelocity = [\"1 m/s\", \"x/(2 s)\"]\nspin = 3"));

@@ -170,5 +170,37 @@ TEST(Expression, TextFoldsConstantsAndReadsBackTheSame) {
     }
 }
 
+TEST(Expression, WhatIsComparedIsEqualWithinASlack) {
+    const auto holds = [](const std::string& text, double x, double y) {
+        return Expression(text, varying()).holds(Vec3(x, y, 0), 1e-7);
+    };
+    const double row = 0.05 + 3 * 0.1;  // 0.35000000000000003
+    EXPECT_TRUE(holds("y <= 0.35 m", 0, row));
+    EXPECT_FALSE(holds("y > 0.35 m", 0, row));
+    EXPECT_FALSE(holds("x < 0.35 m", std::nextafter(0.35, 0), 0));
+    EXPECT_TRUE(holds("x >= 0.35 m", std::nextafter(0.35, 0), 0));
+    EXPECT_TRUE(holds("x < 0.35 m", 0.35 - 2e-7, 0));
+    EXPECT_FALSE(holds("x <= 0.35 m", 0.35 + 2e-7, 0));
+    // Whatever is compared, and either way round; each comparison for itself.
+    for (const char* text :
+         {"0.25 m >= hypot(x, y)", "x^2 + y^2 <= 0.0625 m^2", "not hypot(x, y) > 0.25 m",
+          "abs(x) - 0.15 m <= 0.2 m - abs(y)", "y/x >= 4/3", "atan2(y, x)*3 >= 3*atan2(4, 3)",
+          "x >= 0.15 m and x <= 0.15 m", "x/(1 m) >= 0.15", "3*x - 0.25 m <= y"})
+        for (const double rounding : {-1e-16, 0.0, 1e-16})
+            EXPECT_TRUE(holds(text, 0.15 + rounding, 0.2)) << text << " " << rounding;
+    // What < selects and what >= selects are the whole, and have nothing in common.
+    for (const char* pair : {"hypot(x - 1 m, y) {} 2*y", "x*y {} 0.02 m^2", "x {} y"})
+        for (double x = 0.05; x < 1; x += 0.1)
+            for (double y = 0.05; y < 1; y += 0.1) {
+                const std::string text = pair;
+                const auto with = [&](const char* sign) {
+                    std::string full = text;
+                    return holds(full.replace(full.find("{}"), 2, sign), x, y);
+                };
+                EXPECT_NE(with("<"), with(">=")) << text;
+                EXPECT_NE(with(">"), with("<=")) << text;
+            }
+}
+
 }  // namespace
 }  // namespace hibi

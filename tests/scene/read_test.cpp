@@ -116,8 +116,8 @@ TEST(Overrides, ThatDoNotFitAreMistakesOfTheCommandLine) {
 TEST(ReadScene, SelectionsAndLoadsMayNameABody) {
     const Scene scene = parse_scene(everything, "s.toml");
     EXPECT_EQ(scene.fixes[1].where.body, 5);
-    EXPECT_TRUE(scene.fixes[1].where(Vec3(61, 1, 0), 5));
-    EXPECT_FALSE(scene.fixes[1].where(Vec3(61, 1, 0), 4));
+    EXPECT_TRUE(scene.fixes[1].where(Vec3(61, 1, 0), 1, 5));
+    EXPECT_FALSE(scene.fixes[1].where(Vec3(61, 1, 0), 1, 4));
     EXPECT_EQ(answer(small("hold =", "body = \"plat\"\nhold =")), "s.toml:18:8: error: no body \"plat\"");
 }
 
