@@ -142,7 +142,7 @@ TEST(Check, TellsMassAndCentreErrorsAndBondsThatWouldCrossEmptySpace) {
     const std::string text = report_on(R"(
 [[body]]
 material = "m"
-box = [[0, 0], [3.5, 6]]
+polygon = [[0, 0], [3.5, 0], [3.5, 6], [0, 6]]
 spacing = 1
 [[body]]
 material = "m"

@@ -141,13 +141,14 @@ TEST(HardCases, StiffnessOfOneToTenThousandComesToRest) {
         folder, "contrast",
         concrete("", "0.3", "1 MPa") + concrete("", "0.3", "10 GPa", "steel") + box(8, 4) + stiff + clamped +
             "[[load]]\nface = \"right\"\nbody = \"stiff\"\nforce = [\"10 kN\", 0]\nramp = \"2 s\"\n"
-            "[damping]\nratio = 0.5\n[run]\nmax_time = \"5 s\"\n");
+            "[damping]\nratio = 0.5\n[run]\nmax_time = \"15 s\"\n");
     expect_a_film(r);
     const HistoryRow last = r.history().rows.back();
-    EXPECT_LT(last.kinetic, 0.01 * last.elastic);
-    // The soft part stretches by F L / (E A) less what the stiff particles beside it hold fast.
-    EXPECT_GT(last.displacement, 0.6 * 1e4 * 7.5 / (1e6 * 4));
-    EXPECT_LT(last.displacement, 1e4 * 7.5 / (1e6 * 4));
+    EXPECT_LT(last.kinetic, 1e-4 * last.elastic);
+    // The soft part stretches by F L / (E A), less what its clamped end and the stiff part hold fast: 6 % of it
+    // in the static run of the same scene with four particles over the height, 2 % with 32.
+    EXPECT_GT(last.displacement, 0.92 * 1e4 * 7.5 / (1e6 * 4));
+    EXPECT_LT(last.displacement, 0.95 * 1e4 * 7.5 / (1e6 * 4));
 }
 
 TEST(HardCases, DustFliesOnWithTheEnergyItHad) {
