@@ -68,8 +68,13 @@ Overrides overrides_from(const std::vector<std::string>& texts) {
     return overrides;
 }
 
+/// "-" is standard input, as for other commands.
+std::string scene_word(const std::string& word) { return word == "-" ? "/dev/stdin" : word; }
+
 void add_scene(Command& command, std::filesystem::path& scene, Overrides& overrides) {
-    command.add_option("SCENE", scene, "scene file (TOML)")->required();
+    command.add_option("SCENE", scene, "scene file (TOML), or - for standard input")
+        ->required()
+        ->transform(scene_word);
     command
         .add_option_function<std::vector<std::string>>(
             "-p,--param",
@@ -280,7 +285,9 @@ void add_test(CLI::App& app, int& status) {
     Command* test =
         app.add_subcommand("test", "Image tests: run scenes and compare them with stored references");
     const auto o = options_of<TestOptions>();
-    test->add_option("SCENE", o->scenes, "scene files (TOML), or folders of them")->required();
+    test->add_option("SCENE", o->scenes, "scene files (TOML), or folders of them")
+        ->required()
+        ->transform(scene_word);
     test->add_option_function<std::string>(
             "--update",
             [o](const std::string& what) {
@@ -317,7 +324,7 @@ void add_sweep(CLI::App& app, int& status) {
     Command* sweep =
         app.add_subcommand("sweep", "Run a scene for all combinations of parameters: table, sheet, plot");
     const auto o = options_of<SweepOptions>();
-    sweep->add_option("SCENE", o->scene, "scene file (TOML)")->required();
+    sweep->add_option("SCENE", o->scene, "scene file (TOML)")->required()->transform(scene_word);
     add_study(*sweep, o->grid, o->study, "folder of the runs (default: out/<scene name>_sweep)");
     sweep->add_flag("--pictures", o->study.pictures, "film, figures and report of every run, too");
     sweep->add_flag("--json", o->json, "print sweep.json instead of the table");
@@ -329,7 +336,7 @@ void add_converge(CLI::App& app, int& status) {
     Command* converge =
         app.add_subcommand("converge", "The same experiment at several resolutions: table, plot, film");
     const auto o = options_of<ConvergeOptions>();
-    converge->add_option("SCENE", o->scene, "scene file (TOML)")->required();
+    converge->add_option("SCENE", o->scene, "scene file (TOML)")->required()->transform(scene_word);
     add_study(*converge, o->grid, o->study, "folder of the runs (default: out/<scene name>_converge)");
     converge->add_flag_callback(
         "--one", [o] { o->both = false; }, "only with the scene's own criterion of failure, not with both");
@@ -376,9 +383,9 @@ void add_preview(CLI::App& app, int& status) {
     preview->add_option("-o,--output", o->png, "PNG to write")->capture_default_str();
     add_drawing(*preview, o->renderer);
     preview->callback([o, &status] {
-        std::vector<std::string> words{"hibi", "preview", o->scene.string()};
+        std::vector<std::string> words{"hibi", "preview", path_word(o->scene)};
         for (const auto& [name, value] : o->overrides) words.insert(words.end(), {"-p", name + "=" + value});
-        words.insert(words.end(), {"-o", o->png.string()});
+        words.insert(words.end(), {"-o", path_word(o->png)});
         draw_setup(read_and_build(o->scene, o->overrides), o->png, o->renderer, shell_command(words));
         fmt::print("{}\n", o->png.string());
         status = 0;

@@ -1,15 +1,16 @@
 #include "app/diff.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
 #include "app/junit.hpp"
+#include "app/picture_files.hpp"
 #include "app/process.hpp"
 #include "base/units.hpp"
 #include "film/encoder.hpp"
@@ -25,9 +26,6 @@ using Json = nlohmann::ordered_json;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
-/// Names of frames -> their files.
-using Frames = std::map<std::string, fs::path>;
-
 enum class Kind { picture, frames, run };
 const char* to_string(Kind kind) {
     return kind == Kind::picture ? "a picture" : kind == Kind::frames ? "a film's frames" : "a run";
@@ -37,12 +35,12 @@ Kind kind_of(const fs::path& path) {
     if (!fs::exists(path)) refuse(path.string() + ": there is no such file or folder");
     if (fs::is_directory(path))
         return fs::exists(path / "states" / "topology.hdf") ? Kind::run : Kind::frames;
-    if (path.extension() == ".png") return Kind::picture;
+    if (is_picture(path)) return Kind::picture;
     if (path.extension() == ".json") return Kind::frames;
-    refuse(fmt::format(
-        "{}: cannot be compared; name a PNG picture, a folder of them, the frames.json of a film, "
-        "or the folder of a run",
-        path.string()));
+    refuse(
+        fmt::format("{}: cannot be compared; name a picture or a film (PNG, JPEG, GIF, MP4, WebM; not "
+                    "animated WebP), a folder of them, the frames.json of a film, or the folder of a run",
+                    path.string()));
 }
 
 /// What reading a file complains of is the user's matter here: the file is the input.
@@ -55,39 +53,38 @@ auto as_input(const char* way_out, Read&& read) {
     }
 }
 
-Frames listed_frames(const fs::path& folder) {
-    Frames frames;
+NamedFiles listed_frames(const fs::path& folder) {
+    NamedFiles frames;
     for (const FrameInfo& frame :
-         as_input("draw the film again with hibi render", [&] { return read_frames(folder); }))
+         as_input("draw the film again with hibi render", [&] { return read_frames(folder); })) {
         frames[frame.file] = folder / frame.file;
+        if (!fs::exists(folder / frame.file))
+            refuse(
+                fmt::format("{}: is missing, though frames.json lists it; draw the film again: hibi render",
+                            (folder / frame.file).string()));
+    }
     return frames;
 }
 
-Frames frames_of(const fs::path& path) {
-    Frames frames;
+/// The frames that a frames.json lists, or everything that a folder holds.
+FolderFiles files_to_compare(const fs::path& path, const fs::path& output) {
+    FolderFiles files;
     if (path.extension() == ".json") {
         if (path.filename() != "frames.json")
             refuse(path.string() + ": not the list of a film's frames; it is called frames.json");
-        frames = listed_frames(path.has_parent_path() ? path.parent_path() : fs::path("."));
-    } else if (fs::exists(path / "frames.json")) {
-        frames = listed_frames(path);
+        files.pictures = listed_frames(path.has_parent_path() ? path.parent_path() : fs::path("."));
     } else {
-        for (const auto& entry : fs::directory_iterator(path))
-            if (entry.path().extension() == ".png") frames[entry.path().filename().string()] = entry.path();
+        files = as_input("compare folders that can be read", [&] { return files_of(path, output); });
+        if (fs::exists(path / "frames.json")) files.pictures.merge(listed_frames(path));
     }
-    if (frames.empty())
-        refuse(path.string() + ": holds no PNG picture, frames.json or recorded run; nothing to compare");
-    for (const auto& [name, file] : frames)
-        if (!fs::exists(file))
-            refuse(
-                fmt::format("{}: is missing, though frames.json lists it; draw the film again: hibi render",
-                            file.string()));
-    return frames;
+    if (files.pictures.empty())
+        refuse(path.string() + ": holds no picture, film, frames.json or recorded run; nothing to compare");
+    return files;
 }
 
 /// Throws where one of the two has frames that the other lacks.
-void require_same_names(const Frames& expected, const Frames& actual, const DiffOptions& options) {
-    const auto lacks = [](const Frames& all, const Frames& some, const fs::path& where) {
+void require_same_names(const NamedFiles& expected, const NamedFiles& actual, const DiffOptions& options) {
+    const auto lacks = [](const NamedFiles& all, const NamedFiles& some, const fs::path& where) {
         std::vector<std::string> missing;
         for (const auto& [name, file] : all)
             if (!some.contains(name)) missing.push_back(name);
@@ -101,14 +98,20 @@ void require_same_names(const Frames& expected, const Frames& actual, const Diff
     lacks(actual, expected, options.expected);
 }
 
-std::vector<FrameDifference> compare_frames(const Frames& expected, const Frames& actual,
-                                            const Tolerance& tolerance) {
-    std::vector<FrameDifference> list;
-    for (const auto& [name, file] : expected) list.push_back({name, file, actual.at(name), {}, {}});
+/// Every picture of every file.
+std::vector<FrameDifference> compare_files(const NamedFiles& expected, const NamedFiles& actual,
+                                           const Tolerance& tolerance) {
+    const std::vector<NamedFiles::value_type> files(expected.begin(), expected.end());
+    std::vector<std::vector<FrameDifference>> of_file(files.size());
     in_parallel(
-        static_cast<int>(list.size()), std::max(1, static_cast<int>(std::thread::hardware_concurrency())),
-        [&](int k) { list[k] = compare_frame(list[k].name, list[k].expected, list[k].actual, tolerance); },
+        static_cast<int>(files.size()), std::max(1, static_cast<int>(std::thread::hardware_concurrency())),
+        [&](int k) {
+            const auto& [name, file] = files[k];
+            of_file[k] = compare_pictures(name, file, actual.at(name), tolerance);
+        },
         [] {});
+    std::vector<FrameDifference> list;
+    for (const auto& frames : of_file) list.insert(list.end(), frames.begin(), frames.end());
     return list;
 }
 
@@ -142,6 +145,7 @@ struct Findings {
     std::vector<FrameDifference> frames{};
     const FrameDifference* worst = nullptr;
     std::string other_frames{};  ///< why the frames of two runs are not compared
+    std::vector<std::string> not_compared{};  ///< files that are not the same, and have no pixels to compare
     std::optional<RunDifference> run{};
     Sameness pixels = Sameness::identical, physics = Sameness::identical;
     std::string verdict{}, detail{};  ///< detail may be empty
@@ -159,6 +163,15 @@ std::string drawing_words(const Findings& f, const DiffOptions& options) {
     return text + beyond(f.worst->pixels, options.pixels);
 }
 
+std::string not_compared_words(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 3;
+    const std::size_t shown = std::min(most, names.size());
+    std::string text = fmt::format("not the same, but not compared: {}",
+                                   fmt::join(names.begin(), names.begin() + shown, ", "));
+    if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+    return text;
+}
+
 void set_verdict(Findings& f, const DiffOptions& options) {
     if (f.all() != Sameness::different) {
         f.verdict = "same";
@@ -169,6 +182,7 @@ void set_verdict(Findings& f, const DiffOptions& options) {
         f.verdict = f.run ? "drawing changed, physics the same" : "different";
         f.detail = drawing_words(f, options);
     }
+    if (!f.not_compared.empty()) f.detail += "; " + not_compared_words(f.not_compared);
 }
 
 Json place_json(const std::optional<PositionsDifference::Place>& place) {
@@ -238,6 +252,7 @@ std::string to_json(const Findings& f, const DiffOptions& options) {
                     {"detail", f.detail},
                     {"sameness", to_string(f.all())},
                     {"pixels", pixels},
+                    {"not_compared", f.not_compared},
                     {"states", f.run ? states_json(*f.run) : Json(nullptr)},
                     {"curve", f.run ? curve_json(*f.run) : Json(nullptr)}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -327,8 +342,8 @@ void write_page(const Findings& f, const DiffOptions& options) {
                         .actual_name = options.actual.string(),
                         .tables = {}};
     if (f.worst) {
-        const Image expected = picture_to_compare(f.worst->expected),
-                    actual = picture_to_compare(f.worst->actual);
+        const Image expected = picture_to_compare(f.worst->expected, f.worst->number),
+                    actual = picture_to_compare(f.worst->actual, f.worst->number);
         const std::string name = f.frames.size() > 1 ? "Worst frame: " + f.worst->name : std::string();
         page.pictures = page_pictures(name, expected, actual, f.worst->pixels);
         page.tables.push_back(pixel_table(f.worst->pixels, options.pixels));
@@ -336,6 +351,12 @@ void write_page(const Findings& f, const DiffOptions& options) {
         write_difference_pictures(options.output, expected, actual, f.worst->pixels);
     } else if (!f.other_frames.empty()) {
         page.tables.push_back({"Frames", f.other_frames, {}});
+    }
+    if (!f.not_compared.empty()) {
+        DifferenceTable table{
+            "Not compared", "Files without pixels that differ, or that one side lacks.", {}};
+        for (const std::string& name : f.not_compared) table.rows.push_back({name, "not the same", "", {}});
+        page.tables.push_back(table);
     }
     if (f.run) {
         page.tables.push_back(states_table(*f.run, options.run));
@@ -358,9 +379,10 @@ std::vector<JunitCase> junit_cases(const Findings& f, const DiffOptions& options
 
 /// The pictures of two runs, where both were drawn. That one has more of them is a finding, not a mistake.
 void compare_drawings(const DiffOptions& options, Findings& f) {
-    const Frames expected =
-        fs::exists(options.expected / "frames.json") ? frames_of(options.expected) : Frames{};
-    const Frames actual = fs::exists(options.actual / "frames.json") ? frames_of(options.actual) : Frames{};
+    const auto frames_of = [](const fs::path& folder) {
+        return fs::exists(folder / "frames.json") ? listed_frames(folder) : NamedFiles{};
+    };
+    const NamedFiles expected = frames_of(options.expected), actual = frames_of(options.actual);
     if (expected.empty() || actual.empty()) {
         f.other_frames = fmt::format("{} has no frames, so pixels are not compared; hibi render draws them",
                                      (expected.empty() ? options.expected : options.actual).string());
@@ -371,7 +393,7 @@ void compare_drawings(const DiffOptions& options, Findings& f) {
         f.pixels = Sameness::different;
         return;
     }
-    f.frames = compare_frames(expected, actual, options.pixels);
+    f.frames = compare_files(expected, actual, options.pixels);
 }
 
 /// A run that came to its end has all the states, rows and breaks that it counted: what is gone must not pass
@@ -407,12 +429,14 @@ Findings find(const DiffOptions& options) {
                            to_string(kind), options.actual.string(), to_string(other)));
     Findings f;
     if (kind == Kind::picture) {
-        f.frames = {compare_frame(options.actual.filename().string(), options.expected, options.actual,
-                                  options.pixels)};
+        f.frames = compare_pictures(options.actual.filename().string(), options.expected, options.actual,
+                                    options.pixels);
     } else if (kind == Kind::frames) {
-        const Frames expected = frames_of(options.expected), actual = frames_of(options.actual);
-        require_same_names(expected, actual, options);
-        f.frames = compare_frames(expected, actual, options.pixels);
+        const FolderFiles expected = files_to_compare(options.expected, options.output),
+                          actual = files_to_compare(options.actual, options.output);
+        require_same_names(expected.pictures, actual.pictures, options);
+        f.frames = compare_files(expected.pictures, actual.pictures, options.pixels);
+        f.not_compared = differing_files(expected.others, actual.others);
     } else {
         f.run = as_input("run the scene again, or compare other runs", [&] {
             const RunReader expected(options.expected), actual(options.actual);
@@ -455,27 +479,38 @@ void set_limits(const TestLimits& given, Tolerance& pixels, RunTolerance& run) {
     run.load = given.load.value_or(run.load);
 }
 
-Image picture_to_compare(const fs::path& file) {
-    return as_input("compare whole PNG pictures", [&] {
-        if (const int depth = png_bit_depth(file); depth > 8)
-            refuse(fmt::format("{}: has {} bits per channel, and 8 are compared; convert it first",
-                               file.string(), depth));
-        return read_png(file);
-    });
-}
-
-FrameDifference compare_frame(const std::string& name, const fs::path& expected, const fs::path& actual,
-                              const Tolerance& tolerance) {
-    const Image a = picture_to_compare(expected), b = picture_to_compare(actual);
-    FrameDifference frame{name, expected, actual, {}, {}};
-    try {
-        frame.pixels = difference(a, b);
-    } catch (const std::invalid_argument& error) {
-        refuse(fmt::format("{}, {}: {}; draw both with the same [view]", expected.string(), actual.string(),
-                           error.what()));
+std::vector<FrameDifference> compare_pictures(const std::string& name, const fs::path& expected,
+                                              const fs::path& actual, const Tolerance& tolerance) {
+    // Of formats that count hundredths of a second, and of those that count exactly.
+    constexpr double most_off = 0.02;
+    PictureSequence left(expected), right(actual);
+    std::vector<FrameDifference> frames;
+    const auto refuse_pair = [&](const std::string& why, const char* way_out) {
+        refuse(fmt::format("{}, {}: {}; {}", expected.string(), actual.string(), why, way_out));
+    };
+    for (int number = 0;; ++number) {
+        const std::optional<FilmFrame> a = left.next(), b = right.next();
+        if (!a && !b) break;
+        if (!a || !b)
+            refuse_pair(fmt::format("the {} one ends after {} pictures", a ? "second" : "first", number),
+                        "compare films of the same length");
+        if (std::abs(a->time - b->time) > most_off)
+            refuse_pair(fmt::format("picture {} is shown at {:.3f} s in one, at {:.3f} s in the other",
+                                    number, a->time, b->time),
+                        "compare films of the same speed");
+        FrameDifference frame{name, expected, actual, {}, {}, number};
+        try {
+            frame.pixels = difference(a->image, b->image);
+        } catch (const std::invalid_argument& error) {
+            refuse_pair(error.what(), "draw both with the same [view]");
+        }
+        frame.sameness = judge(frame.pixels, tolerance);
+        frames.push_back(frame);
     }
-    frame.sameness = judge(frame.pixels, tolerance);
-    return frame;
+    if (frames.empty()) refuse_pair("they hold no picture", "compare whole films");
+    if (frames.size() > 1)
+        for (FrameDifference& frame : frames) frame.name += fmt::format(", picture {}", frame.number);
+    return frames;
 }
 
 std::string beyond(const PixelDifference& d, const Tolerance& tolerance) {

@@ -12,7 +12,7 @@
 namespace hibi {
 
 struct DiffOptions {
-    std::filesystem::path expected, actual;     ///< two pictures, folders of pictures, frames.json, or runs
+    std::filesystem::path expected, actual;  ///< two pictures or films, folders of them, frames.json, or runs
     std::filesystem::path output = "out/diff";  ///< folder of the pictures and the page
     std::optional<std::filesystem::path> junit{};
     bool json = false;  ///< print JSON in place of the verdict
@@ -20,7 +20,7 @@ struct DiffOptions {
     RunTolerance run{};
 };
 
-/// `hibi diff`: compares two pictures, two folders of pictures, two lists of frames or two runs; writes
+/// `hibi diff`: compares two pictures or films, two folders of them, two lists of frames or two runs; writes
 /// expected.png, actual.png, heat.png, flicker.apng (of the worst frame) and difference.html; prints the
 /// verdict. Returns 0 where both are the same, 3 where not. Throws std::invalid_argument naming the file for
 /// what cannot be compared.
@@ -29,21 +29,20 @@ int diff_command(const DiffOptions& options);
 /// Sets the limits that are given, and leaves the others.
 void set_limits(const TestLimits& given, Tolerance& pixels, RunTolerance& run);
 
-/// A picture that is to be compared, 8 bits per channel. Throws std::invalid_argument naming the file, what
-/// is wrong with it and a way out.
-Image picture_to_compare(const std::filesystem::path& file);
-
-/// One frame that two films share.
+/// One picture that two films, or two files, share.
 struct FrameDifference {
     std::string name;
     std::filesystem::path expected, actual;
     PixelDifference pixels;
     Sameness sameness = Sameness::identical;
+    int number = 0;  ///< of the picture in its file
 };
 
-/// Throws std::invalid_argument where the two cannot be compared.
-FrameDifference compare_frame(const std::string& name, const std::filesystem::path& expected,
-                              const std::filesystem::path& actual, const Tolerance& tolerance);
+/// All pictures of two files: one each, or the frames of two animations or films. Throws
+/// std::invalid_argument where the two cannot be compared.
+std::vector<FrameDifference> compare_pictures(const std::string& name, const std::filesystem::path& expected,
+                                              const std::filesystem::path& actual,
+                                              const Tolerance& tolerance);
 
 /// The numbers of a frame's difference as a table of the page.
 DifferenceTable pixel_table(const PixelDifference& difference, const Tolerance& tolerance);

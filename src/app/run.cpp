@@ -23,6 +23,7 @@
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
 #include "report/place.hpp"
+#include "scene/scene_file.hpp"
 
 namespace hibi {
 
@@ -48,10 +49,14 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-std::string place(const fs::path& file) { return fs::weakly_canonical(file).string(); }
+/// By which a run knows its scene again.
+std::string place(const fs::path& scene) {
+    return is_stream(scene) ? scene.string() : fs::weakly_canonical(scene).string();
+}
 
-/// A folder is used that holds nothing of a run's, or the run of the same scene.
-void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
+/// A folder is used that holds nothing of a run's, or the run of the same scene. A scene from a pipe has no
+/// file by which it could be known again: it is the same only where nothing in it has changed.
+void refuse_other_scene(const fs::path& folder, const RunOptions& options, const Scene& scene) {
     std::error_code none;
     if (fs::equivalent(folder / "scene.toml", options.scene, none))
         throw std::runtime_error(
@@ -66,8 +71,10 @@ void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
                         "run add its files with --force",
                         folder.string()));
     if (!fs::is_directory(folder)) return;  // the writer says what is wrong
-    const std::string other = fs::exists(folder / "run.json") ? read_summary(folder).scene_file : "unknown";
-    if (other == place(options.scene)) return;
+    const RunSummary run = fs::exists(folder / "run.json") ? read_summary(folder) : RunSummary{};
+    const std::string other = run.scene_file.empty() ? "unknown" : run.scene_file;
+    if (is_stream(options.scene) ? run.scene_hash == scene_hash(scene) : other == place(options.scene))
+        return;
     throw std::runtime_error(
         fmt::format("{}: holds the run of another scene, {}; choose another folder with -o, or "
                     "overwrite it with --force",
@@ -75,11 +82,11 @@ void refuse_other_scene(const fs::path& folder, const RunOptions& options) {
 }
 
 /// A number that lost its unit on the command line is taken as SI, which may be far from what was meant.
-void note_plain_numbers(const RunOptions& options) {
+void note_plain_numbers(const RunOptions& options, const std::string& scene_text) {
     for (const auto& [name, text] : options.overrides) {
         if (text == "0" || text.find_first_not_of("0123456789+-.eE") != std::string::npos) continue;
         try {
-            const Scene own = read_scene(options.scene, {});
+            const Scene own = parse_scene(scene_text, options.scene.string());
             const auto before =
                 std::ranges::find_if(own.params, [&](const Parameter& p) { return p.name == name; });
             if (before != own.params.end() && !before->unit.empty())
@@ -90,11 +97,15 @@ void note_plain_numbers(const RunOptions& options) {
     }
 }
 
-/// The command that gives this run again. What does not change a result is left out.
+/// The command that gives this run again. What does not change a result is left out. What came through a pipe
+/// is gone, but the folder of the run keeps the scene, with the overrides in it.
 std::string command_of(const RunOptions& options, const fs::path& folder) {
-    std::vector<std::string> words{"hibi", "run", options.scene.string()};
+    if (is_stream(options.scene))
+        return shell_command({"cat", path_word(folder / "scene.toml")}) + " | " +
+               shell_command({"hibi", "run", "/dev/stdin", "-o", path_word(folder)});
+    std::vector<std::string> words{"hibi", "run", path_word(options.scene)};
     for (const auto& [name, value] : options.overrides) words.insert(words.end(), {"-p", name + "=" + value});
-    words.insert(words.end(), {"-o", folder.string()});
+    words.insert(words.end(), {"-o", path_word(folder)});
     return shell_command(words);
 }
 
@@ -335,10 +346,11 @@ void require_steps_that_end(const Scene& scene, const Simulation<2>& simulation)
 
 int run_command(const RunOptions& options) {
     const Stopwatch total;
-    auto [scene, built] = read_and_build(options.scene, options.overrides);
-    const fs::path folder = options.folder.value_or(fs::path("out") / options.scene.stem());
-    refuse_other_scene(folder, options);
-    note_plain_numbers(options);
+    const std::string text = read_scene_text(options.scene);
+    auto [scene, built] = parse_and_build(text, options.scene.string(), options.overrides);
+    const fs::path folder = options.folder.value_or(fs::path("out") / scene_name(options.scene));
+    refuse_other_scene(folder, options, scene);
+    note_plain_numbers(options, text);
     Topology topology = topology_of(scene, built);
     Simulation<2> simulation(std::move(built.model), std::move(built.physics));
     std::vector<std::string> stages = simulation.stage_names();
@@ -432,8 +444,8 @@ int render_command(const RenderOptions& options) {
     RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
     DrawOptions draw = options.draw;
     if (options.scene || !draw.formats.empty()) {
-        draw.command = {"hibi", "render", folder.string()};
-        if (options.scene) draw.command.insert(draw.command.end(), {"--scene", options.scene->string()});
+        draw.command = {"hibi", "render", path_word(folder)};
+        if (options.scene) draw.command.insert(draw.command.end(), {"--scene", path_word(*options.scene)});
         if (!draw.formats.empty())
             draw.command.insert(draw.command.end(),
                                 {"--formats", fmt::format("{}", fmt::join(draw.formats, ","))});

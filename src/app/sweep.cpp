@@ -19,6 +19,7 @@
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
 #include "record/tables.hpp"
+#include "scene/scene_file.hpp"
 
 namespace hibi {
 
@@ -191,8 +192,14 @@ std::vector<StudyRun> run_study(const std::vector<StudyPoint>& points, const Stu
             run.mode = mode_of(run.folder, *run.summary);
             return;
         }
-        std::vector<std::string> words{
-            this_program().string(), "run", point.scene.string(), "-o", run.folder, "-q", "--threads", "1"};
+        std::vector<std::string> words{this_program().string(),
+                                       "run",
+                                       path_word(point.scene),
+                                       "-o",
+                                       path_word(run.folder),
+                                       "-q",
+                                       "--threads",
+                                       "1"};
         if (!point.folded)
             for (const auto& [name, value] : point.overrides)
                 words.insert(words.end(), {"-p", name + "=" + value});
@@ -288,6 +295,7 @@ void write_sheet(const std::vector<StudyRun>& runs, const fs::path& folder, cons
 }
 
 int sweep_command(SweepOptions options) {
+    require_file(options.scene);
     const Grid grid = read_grid(options.grid);
     if (options.study.folder.empty())
         options.study.folder = fs::path("out") / (options.scene.stem().string() + "_sweep");
@@ -296,9 +304,9 @@ int sweep_command(SweepOptions options) {
     const std::vector<StudyRun> runs =
         run_study(distinct_points(grid_points(options.scene, grid)), options.study);
 
-    std::vector<std::string> words{"hibi", "sweep", options.scene.string()};
+    std::vector<std::string> words{"hibi", "sweep", path_word(options.scene)};
     for (const std::string& text : options.grid) words.insert(words.end(), {"-p", text});
-    words.insert(words.end(), {"-o", folder.string()});
+    words.insert(words.end(), {"-o", path_word(folder)});
     std::string title = options.scene.stem().string();
     for (const StudyRun& run : runs)
         if (run.done()) title = run.summary->title;

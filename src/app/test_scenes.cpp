@@ -12,12 +12,15 @@
 #include <thread>
 
 #include "app/junit.hpp"
+#include "app/picture_files.hpp"
 #include "app/process.hpp"
 #include "app/progress.hpp"
 #include "app/reference.hpp"
 #include "image/png.hpp"
 #include "record/files.hpp"
+#include "record/provenance.hpp"
 #include "scene/read.hpp"
+#include "scene/scene_file.hpp"
 
 namespace hibi {
 
@@ -100,6 +103,7 @@ std::vector<SceneResult> read_all(const TestOptions& options) {
         for (int k = 2; !names.insert(r.name).second; ++k)
             r.name = fmt::format("{}_{}", file.stem().string(), k);
         try {
+            require_file(file);
             r.overrides = overrides_of(read_scene(file).test);
             r.scene = read_scene(file, r.overrides);
             for (const TestLimits& limits : {r.scene.test.tolerance, options.limits})
@@ -118,9 +122,9 @@ std::vector<SceneResult> read_all(const TestOptions& options) {
 void run_scene(SceneResult& r, const fs::path& folder, int threads) {
     std::vector<std::string> words{this_program().string(),
                                    "run",
-                                   r.file.string(),
+                                   path_word(r.file),
                                    "-o",
-                                   folder.string(),
+                                   path_word(folder),
                                    "--no-pictures",
                                    "--force",
                                    "-q",
