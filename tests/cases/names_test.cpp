@@ -39,7 +39,7 @@ class Names : public testing::Test {
 };
 
 TEST_F(Names, EveryFileOfARunIsMadeAndReadInAFolderOfAnyName) {
-    for (const std::string name : {"12:30", "a:b/c", "file:x", "-lead", "%03d", "it's \"so\" 割れ"}) {
+    for (const std::string name : {"12:30", "file:x/%03d", "-it's \"so\" 割れ"}) {
         SCOPED_TRACE(name);
         const std::string quoted = shell_command({name}), path = shell_command({path_word(name)});
         Answer answer = shell("hibi run beam.toml -q --formats mp4,gif,webm,apng,webp --output=" + quoted);

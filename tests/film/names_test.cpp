@@ -60,7 +60,9 @@ TEST_P(FilmNames, AFilmIsWrittenAndReadUnderEveryName) {
             for (const auto& entry : fs::directory_iterator(parent)) files += entry.is_regular_file();
             EXPECT_EQ(files, 1);
             // FFmpeg decodes no animated WebP, and knows no comment of an APNG.
-            if (format != "webp") EXPECT_EQ(count_frames(file), frames);
+            if (format != "webp") {
+                EXPECT_EQ(count_frames(file), frames);
+            }
             if (format != "webp" && format != "apng") {
                 bool told = false;
                 for (const auto& [key, text] : film_metadata(file)) told |= text == "told";
@@ -75,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Of, FilmNames,
                                          "data:x", "%d", "m%03d", "100%", "two words", "it's \"so\"", "-lead",
                                          "-", "ひび 割れ", "back\\slash", "x?y#z&w", "*[a-z]", "line\nend",
                                          ".hidden"),
-                         [](const auto& info) { return std::to_string(info.index); });
+                         [](const auto& name) { return std::to_string(name.index); });
 
 }  // namespace
 }  // namespace hibi

@@ -49,7 +49,7 @@ std::vector<FilmFrame> read(const fs::path& file) {
 
 TEST(FilmReader, GivesEveryFrameInItsOrderAtItsTimeInItsColours) {
     const TemporaryFolder folder;
-    for (const auto& [format, off] : {std::pair("apng", 0.0), {"gif", 3.0}, {"mp4", 8.0}, {"webm", 8.0}}) {
+    for (const auto& [format, off] : {std::pair("apng", 0.0), {"gif", 0.0}, {"mp4", 8.0}, {"webm", 8.0}}) {
         SCOPED_TRACE(format);
         const fs::path file = folder.path() / (std::string("movie.") + format);
         write(file, false);

@@ -103,7 +103,7 @@ void write_greys(const fs::path& file, const Kind& kind, bool with_hole = false)
     std::vector<png_byte> pixels;
     for (int k = 0; k < side * side; ++k)
         for (int c = 0; c < channels; ++c)
-            pixels.push_back(has_alpha && c == channels - 1 ? (with_hole && k == 200 ? 0 : 255) : k / 2);
+            pixels.push_back(png_byte(has_alpha && c == channels - 1 ? (with_hole && k == 200 ? 0 : 255) : k / 2));
     std::vector<png_bytep> rows;
     for (int y = 0; y < side; ++y) rows.push_back(pixels.data() + y * side * channels);
     png_write_image(png, rows.data());
