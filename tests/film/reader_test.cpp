@@ -94,7 +94,11 @@ TEST(FilmReader, NamesAFileThatIsDamagedOrNoFilm) {
     for (const char* format : {"apng", "mp4", "webm"}) {
         const fs::path file = folder.path() / (std::string("movie.") + format);
         write(file, false);
-        for (const std::uintmax_t size : {fs::file_size(file) / 8, std::uintmax_t{20}, std::uintmax_t{0}}) {
+        // A WebM that ends in mid-film cannot be told from a shorter one.
+        const std::uintmax_t whole = fs::file_size(file),
+                             most = format == std::string("webm") ? 20 : whole - 20;
+        for (const std::uintmax_t size : {most, whole / 2, std::uintmax_t{20}, std::uintmax_t{0}}) {
+            if (size > most) continue;
             fs::resize_file(file, size);
             EXPECT_EQ(message(file).find(file.string() + ": cannot "), 0u) << size << message(file);
         }
