@@ -84,8 +84,8 @@ std::string lower_case_extension(const fs::path& file) {
 }
 
 bool is_picture(const fs::path& file) {
-    static constexpr std::array extensions{".png",  ".apng", ".jpg", ".jpeg", ".gif", ".webp", ".bmp", ".tif",
-                                           ".tiff", ".mp4",  ".m4v", ".mov",  ".mkv", ".webm", ".avi"};
+    static constexpr std::array extensions{".png", ".apng", ".jpg", ".jpeg", ".gif",  ".webp", ".bmp",
+                                           ".mp4", ".m4v",  ".mov", ".mkv",  ".webm", ".avi"};
     std::error_code none;
     return std::ranges::find(extensions, lower_case_extension(file)) != extensions.end() &&
            fs::is_regular_file(file, none) && !is_animated_webp(file);
