@@ -12,9 +12,11 @@
 
 #include "film/metadata.hpp"
 #include "image/png.hpp"
+#include "picture_tests/picture_files.hpp"
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
 #include "scene/read.hpp"
+#include "scene/scene_file.hpp"
 
 namespace hibi {
 
@@ -54,7 +56,7 @@ std::optional<Provenance> read_provenance(const fs::path& file) {
         const Provenance provenance = provenance_of(read_summary(folder));
         return provenance.command.empty() ? std::nullopt : std::optional(provenance);
     }
-    const std::string type = file.extension();
+    const std::string type = lower_case_extension(file);
     if (type == ".png") {
         PngText text;
         read_png(file, &text);
@@ -69,15 +71,22 @@ std::optional<Provenance> read_provenance(const fs::path& file) {
     return {};
 }
 
-/// The scene of `hibi run SCENE -p ... -o ...`, as the shell words of the command stand there.
+/// Looks at the scene of `hibi run SCENE -p ... -o ...`, or of `cat SCENE | hibi run /dev/stdin -o ...`, as
+/// the shell words of the command stand there.
 void note_changes(const Provenance& provenance) {
     const auto note = [](const std::string& text) { fmt::print(stderr, "hibi reproduce: note: {}\n", text); };
     if (provenance.version != HIBI_VERSION)
         note(fmt::format("made by hibi {}; this is hibi " HIBI_VERSION, provenance.version));
     const std::vector<std::string> words = shell_words(provenance.command);
-    if (words.size() < 3 || words[1] != "run") return;
-    if (!fs::exists(words[2])) {
-        note(fmt::format("{} is not here: go to the folder it was run from", words[2]));
+    if (words.size() < 3) return;
+    const bool piped = words[0] == "cat";
+    if (!piped)
+        for (const std::string& word : words)
+            if (is_stream(word)) return note(fmt::format("{} was a pipe, and what it held is gone", word));
+    if (!piped && words[1] != "run") return;
+    const fs::path file = piped ? words[1] : words[2];
+    if (!fs::exists(file)) {
+        note(fmt::format("{} is not here: go to the folder it was run from", file.string()));
         return;
     }
     Overrides overrides;
@@ -88,11 +97,12 @@ void note_changes(const Provenance& provenance) {
         }
     std::string now = "cannot be read any more";
     try {
-        if (scene_hash(read_scene(words[2], overrides)) == provenance.scene_hash) return;
+        if (scene_hash(read_scene(file, overrides)) == provenance.scene_hash) return;
         now = "is another scene by now";
     } catch (const SceneErrors&) {
     }
-    note(fmt::format("{} {}; scene.toml in the folder of the run is the scene as it was", words[2], now));
+    note(
+        fmt::format("{} {}; scene.toml in the folder of the run is the scene as it was", file.string(), now));
 }
 
 }  // namespace

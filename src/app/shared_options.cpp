@@ -25,8 +25,12 @@ Overrides overrides_from(const std::vector<std::string>& texts) {
 
 }  // namespace
 
+std::string scene_word(const std::string& word) { return word == "-" ? "/dev/stdin" : word; }
+
 void add_scene(Command& command, std::filesystem::path& scene, Overrides& overrides) {
-    command.add_option("SCENE", scene, "scene file (TOML)")->required();
+    command.add_option("SCENE", scene, "scene file (TOML), or - for standard input")
+        ->required()
+        ->transform(scene_word);
     command
         .add_option_function<std::vector<std::string>>(
             "-p,--param",

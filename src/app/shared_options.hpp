@@ -22,6 +22,8 @@ std::shared_ptr<Options> options_of() {
 
 // Options that several commands have: each is declared once.
 
+/// A scene as a word of the command line: "-" is standard input, as for other commands.
+std::string scene_word(const std::string& word);
 /// SCENE and -p name=value.
 void add_scene(Command& command, std::filesystem::path& scene, Overrides& overrides);
 /// --gl, --shaders.

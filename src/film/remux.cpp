@@ -5,14 +5,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "film/file.hpp"
+
 namespace hibi {
-namespace {
-
-struct CloseInput {
-    void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
-};
-
-}  // namespace
 
 void CloseOutput::operator()(AVFormatContext* output) const {
     avio_closep(&output->pb);
@@ -32,11 +27,13 @@ std::filesystem::path film_part_name(const std::filesystem::path& file) {
 
 OutputPtr create_film(const std::filesystem::path& path, const std::filesystem::path& shown,
                       const char* muxer) {
+    // The muxer may open the file once more by this name, to move its index to the front.
+    const std::string url = film_url(path);
     AVFormatContext* output = nullptr;
-    check_film(avformat_alloc_output_context2(&output, nullptr, muxer, path.c_str()), shown,
+    check_film(avformat_alloc_output_context2(&output, nullptr, muxer, url.c_str()), shown,
                fmt::format("use the format \"{}\"", muxer));
     OutputPtr owner(output);
-    check_film(avio_open(&output->pb, path.c_str(), AVIO_FLAG_WRITE), shown, "create the file");
+    check_film(avio_open(&output->pb, url.c_str(), AVIO_FLAG_WRITE), shown, "create the file");
     return owner;
 }
 
@@ -69,14 +66,13 @@ void finish_film(const std::filesystem::path& part, const std::filesystem::path&
     const std::filesystem::path whole =
         file.parent_path() / fmt::format("{}.whole.mp4", file.stem().string());
     {
-        AVFormatContext* opened = nullptr;
-        check_film(avformat_open_input(&opened, part.c_str(), nullptr, nullptr), part, "read back the film");
-        const std::unique_ptr<AVFormatContext, CloseInput> input(opened);
-        check_film(avformat_find_stream_info(opened, nullptr), part, "read back the film");
+        InputPtr input;
+        check_film(open_film(part, input), part, "read back the film");
+        check_film(avformat_find_stream_info(input.get(), nullptr), part, "read back the film");
         OutputPtr output = create_film(whole, file, "mp4");
-        av_dict_copy(&output->metadata, opened->metadata, 0);
+        av_dict_copy(&output->metadata, input->metadata, 0);
         AVStream* stream = add_film_stream(*output, {});
-        check_film(avcodec_parameters_copy(stream->codecpar, opened->streams[0]->codecpar), file,
+        check_film(avcodec_parameters_copy(stream->codecpar, input->streams[0]->codecpar), file,
                    "copy the film");
         set_film_rate(*stream, {fps, 1});
         AVDictionary* options = nullptr;
@@ -86,10 +82,10 @@ void finish_film(const std::filesystem::path& part, const std::filesystem::path&
         check_film(error, file, "begin the film");
         const PacketPtr packet(av_packet_alloc());
         for (;;) {
-            const int read = av_read_frame(opened, packet.get());
+            const int read = av_read_frame(input.get(), packet.get());
             if (read == AVERROR_EOF) break;
             check_film(read, part, "read back the film");
-            av_packet_rescale_ts(packet.get(), opened->streams[0]->time_base, stream->time_base);
+            av_packet_rescale_ts(packet.get(), input->streams[0]->time_base, stream->time_base);
             check_film(av_interleaved_write_frame(output.get(), packet.get()), file, "write");
         }
         check_film(av_write_trailer(output.get()), file, "write");

@@ -146,9 +146,7 @@ PixelDifference difference(const Image& expected, const Image& actual) {
         throw std::invalid_argument(fmt::format("one picture has {} x {} pixels, the other {} x {}",
                                                 expected.width, expected.height, actual.width,
                                                 actual.height));
-    if (expected.transparent != actual.transparent)
-        throw std::invalid_argument("one picture is transparent, the other is not");
-    if (!expected.transparent) return opaque_difference(expected, actual);
+    if (is_opaque(expected) && is_opaque(actual)) return opaque_difference(expected, actual);
     return worse_of(opaque_difference(laid_on(expected, black), laid_on(actual, black)),
                     opaque_difference(laid_on(expected, white), laid_on(actual, white)));
 }
@@ -179,8 +177,8 @@ Image heat_map(const Image& expected, const Image& actual, const PixelDifference
     Image heat(expected.width, expected.height);
     for (std::size_t p = 0; p < heat.bgra.size(); p += 4) {
         const std::uint8_t *a = expected.bgra.data() + p, *b = actual.bgra.data() + p;
-        int off = channel_difference(a, b);
-        if (expected.transparent) off = std::max(off, std::abs(a[3] - b[3]));
+        const int alpha = (expected.transparent ? a[3] : 255) - (actual.transparent ? b[3] : 255);
+        const int off = std::max(channel_difference(a, b), std::abs(alpha));
         std::uint8_t* pixel = heat.bgra.data() + p;
         if (off == 0) {
             pixel[0] = pixel[1] = pixel[2] = static_cast<std::uint8_t>(luma(a) / (5 * 256));

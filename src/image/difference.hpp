@@ -27,7 +27,8 @@ struct Tolerance {
 };
 
 /// What tells two pictures of one size apart. Channels in steps of 1/255, in the order R, G, B; luma as in
-/// BT.709. Of transparent pictures the worse of both values, over black and over white.
+/// BT.709. Where one of the pictures is not opaque, the worse of both values, over black and over white: an
+/// alpha that hides nothing changes nothing.
 struct PixelDifference {
     static constexpr int tile_size = 32, tile_stride = 16;
 
@@ -41,7 +42,7 @@ struct PixelDifference {
     double ssim = 1;  ///< structural similarity of luma, mean over 8 x 8 blocks; reported, decides nothing
 };
 
-/// Both of one size and both transparent or neither; else std::invalid_argument.
+/// Throws std::invalid_argument where the sizes are not the same.
 PixelDifference difference(const Image& expected, const Image& actual);
 
 enum class Sameness { identical, tolerated, different };

@@ -23,6 +23,13 @@ std::array<int, 3> bytes_of(const Rgb& colour) {
 
 }  // namespace
 
+bool is_opaque(const Image& image) {
+    if (!image.transparent) return true;
+    for (std::size_t alpha = 3; alpha < image.bgra.size(); alpha += 4)
+        if (image.bgra[alpha] != 255) return false;
+    return true;
+}
+
 void to_rgb(const std::uint8_t* bgra, int pixels, std::uint8_t* rgb) {
     for (int i = 0; i < pixels; ++i) {
         rgb[3 * i] = bgra[4 * i + 2];
@@ -79,10 +86,11 @@ void to_premultiplied(std::uint8_t* bgra, int pixels) {
 std::string pixel_hash(const Image& image) {
     const std::string head = fmt::format("{}x{}\n", image.width, image.height);
     const int pixels = image.width * image.height;
-    std::vector<std::uint8_t> bytes(head.size() + std::size_t(image.transparent ? 4 : 3) * pixels);
+    const bool opaque = is_opaque(image);
+    std::vector<std::uint8_t> bytes(head.size() + std::size_t(opaque ? 3 : 4) * pixels);
     std::ranges::copy(head, bytes.begin());
     std::uint8_t* body = bytes.data() + head.size();
-    if (image.transparent) {
+    if (!opaque) {
         to_straight(image, body);
         for (int i = 0; i < pixels; ++i) std::swap(body[4 * i], body[4 * i + 2]);
     } else {

@@ -23,6 +23,9 @@ struct Image {
     const std::uint8_t* pixel(int x, int y) const { return bgra.data() + 4 * (std::size_t(y) * width + x); }
 };
 
+/// Does every pixel hide what is below? Also where the image has alpha, and all of it is 255.
+bool is_opaque(const Image& image);
+
 /// The colours alone: 3 bytes R, G, B per pixel, top row first, written at `rgb`.
 void to_rgb(const std::uint8_t* bgra, int pixels, std::uint8_t* rgb);
 
@@ -37,9 +40,9 @@ void to_straight(const Image& image, std::uint8_t* straight, const Rgb& hidden =
 void to_premultiplied(std::uint8_t* bgra, int pixels);
 
 /// SHA-256, in hexadecimal digits, of the text "WIDTHxHEIGHT\n" (decimal, ASCII) followed by R, G, B of every
-/// pixel, row by row from the top left; of a transparent image R, G, B, A, colours not multiplied by alpha.
-/// Of an opaque one the fourth byte does not count. This is what frames.json holds and comparisons use: PNG
-/// bytes also carry versions and depend on the compressor.
+/// pixel, row by row from the top left; where the image is not opaque R, G, B, A, colours not multiplied by
+/// alpha. An alpha that is 255 everywhere does not count. This is what frames.json holds and comparisons use:
+/// PNG bytes also carry versions and depend on the compressor.
 std::string pixel_hash(const Image& image);
 
 }  // namespace hibi

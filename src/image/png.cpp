@@ -220,6 +220,19 @@ Image read_png(const std::filesystem::path& file, PngText* text) {
     }
 }
 
+bool is_animated_png(const std::filesystem::path& file) {
+    // An animation says so before its first picture: acTL stands before IDAT. A chunk is its length, its
+    // name, its content and a sum of four bytes.
+    const std::vector<unsigned char> bytes = png_bytes(file);
+    for (std::size_t at = 8; at + 8 <= bytes.size();) {
+        const std::string name(bytes.begin() + at + 4, bytes.begin() + at + 8);
+        if (name == "acTL") return true;
+        if (name == "IDAT") return false;
+        at += 12 + std::size_t(png_get_uint_32(bytes.data() + at));
+    }
+    return false;
+}
+
 int png_bit_depth(const std::filesystem::path& file) {
     // Signature, then length, name, width, height of the first chunk, IHDR.
     constexpr std::size_t place = 24;

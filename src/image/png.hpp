@@ -27,6 +27,10 @@ void write_png(const std::filesystem::path& file, const Image& image, const PngO
 /// texts if wanted. Throws std::runtime_error naming the file and what is wrong with it.
 Image read_png(const std::filesystem::path& file, PngText* text = nullptr);
 
+/// Is the file an animated PNG? read_png reads the first picture of one. Throws std::runtime_error naming a
+/// file that is no PNG.
+bool is_animated_png(const std::filesystem::path& file);
+
 /// Bits per channel as the file's header says, 1 to 16. Throws std::runtime_error naming a file that is no
 /// PNG.
 int png_bit_depth(const std::filesystem::path& file);

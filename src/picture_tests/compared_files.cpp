@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "image/png.hpp"
 #include "record/run_folder.hpp"
 
 namespace hibi {
 
 namespace fs = std::filesystem;
-
-void refuse_to_compare(const std::string& what) { throw std::invalid_argument(what); }
 
 const char* to_string(ComparedKind kind) {
     return kind == ComparedKind::picture  ? "a picture"
@@ -21,56 +18,41 @@ ComparedKind kind_of(const fs::path& path) {
     if (!fs::exists(path)) refuse_to_compare(path.string() + ": there is no such file or folder");
     if (fs::is_directory(path))
         return fs::exists(path / "states" / "topology.hdf") ? ComparedKind::run : ComparedKind::frames;
-    if (path.extension() == ".png") return ComparedKind::picture;
+    if (is_picture(path)) return ComparedKind::picture;
     if (path.extension() == ".json") return ComparedKind::frames;
-    refuse_to_compare(fmt::format(
-        "{}: cannot be compared; name a PNG picture, a folder of them, the frames.json of a film, "
-        "or the folder of a run",
-        path.string()));
+    refuse_to_compare(
+        fmt::format("{}: cannot be compared; name a picture or a film (PNG, JPEG, GIF, MP4, WebM; not "
+                    "animated WebP), a folder of them, the frames.json of a film, or the folder of a run",
+                    path.string()));
 }
 
-namespace {
-
-Frames listed_frames(const fs::path& folder) {
-    Frames frames;
+NamedFiles listed_frames(const fs::path& folder) {
+    NamedFiles frames;
     for (const FrameInfo& frame :
-         read_as_input("draw the film again with hibi render", [&] { return read_frames(folder); }))
+         read_as_input("draw the film again with hibi render", [&] { return read_frames(folder); })) {
         frames[frame.file] = folder / frame.file;
+        if (!fs::exists(folder / frame.file))
+            refuse_to_compare(
+                fmt::format("{}: is missing, though frames.json lists it; draw the film again: hibi render",
+                            (folder / frame.file).string()));
+    }
     return frames;
 }
 
-}  // namespace
-
-Frames frames_of(const fs::path& path) {
-    Frames frames;
+FolderFiles files_to_compare(const fs::path& path, const fs::path& output) {
+    FolderFiles files;
     if (path.extension() == ".json") {
         if (path.filename() != "frames.json")
             refuse_to_compare(path.string() + ": not the list of a film's frames; it is called frames.json");
-        frames = listed_frames(path.has_parent_path() ? path.parent_path() : fs::path("."));
-    } else if (fs::exists(path / "frames.json")) {
-        frames = listed_frames(path);
+        files.pictures = listed_frames(path.has_parent_path() ? path.parent_path() : fs::path("."));
     } else {
-        for (const auto& entry : fs::directory_iterator(path))
-            if (entry.path().extension() == ".png") frames[entry.path().filename().string()] = entry.path();
+        files = read_as_input("compare folders that can be read", [&] { return files_of(path, output); });
+        if (fs::exists(path / "frames.json")) files.pictures.merge(listed_frames(path));
     }
-    if (frames.empty())
+    if (files.pictures.empty())
         refuse_to_compare(path.string() +
-                          ": holds no PNG picture, frames.json or recorded run; nothing to compare");
-    for (const auto& [name, file] : frames)
-        if (!fs::exists(file))
-            refuse_to_compare(
-                fmt::format("{}: is missing, though frames.json lists it; draw the film again: hibi render",
-                            file.string()));
-    return frames;
-}
-
-Image picture_to_compare(const fs::path& file) {
-    return read_as_input("compare whole PNG pictures", [&] {
-        if (const int depth = png_bit_depth(file); depth > 8)
-            refuse_to_compare(fmt::format("{}: has {} bits per channel, and 8 are compared; convert it first",
-                                          file.string(), depth));
-        return read_png(file);
-    });
+                          ": holds no picture, film, frames.json or recorded run; nothing to compare");
+    return files;
 }
 
 }  // namespace hibi

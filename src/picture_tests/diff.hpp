@@ -12,14 +12,14 @@
 namespace hibi {
 
 struct DiffOptions {
-    std::filesystem::path expected, actual;     ///< two pictures, folders of pictures, frames.json, or runs
+    std::filesystem::path expected, actual;  ///< two pictures or films, folders of them, frames.json, or runs
     std::filesystem::path output = "out/diff";  ///< folder of the pictures and the page
     std::optional<std::filesystem::path> junit{};
     Tolerance pixels{};
     RunTolerance run{};
 };
 
-/// Compares two pictures, two folders of pictures, two lists of frames or two runs; writes expected.png,
+/// Compares two pictures or films, two folders of them, two lists of frames or two runs; writes expected.png,
 /// actual.png, heat.png, flicker.apng (of the worst frame), difference.html, and JUnit XML where that is
 /// asked for. Throws std::invalid_argument naming the file for what cannot be compared.
 Findings diff(const DiffOptions& options);

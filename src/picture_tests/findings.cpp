@@ -1,6 +1,7 @@
 #include "picture_tests/findings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Throws where one of the two has frames that the other lacks.
-void require_same_names(const Frames& expected, const Frames& actual, const DiffOptions& options) {
-    const auto lacks = [](const Frames& all, const Frames& some, const fs::path& where) {
+void require_same_names(const NamedFiles& expected, const NamedFiles& actual, const DiffOptions& options) {
+    const auto lacks = [](const NamedFiles& all, const NamedFiles& some, const fs::path& where) {
         std::vector<std::string> missing;
         for (const auto& [name, file] : all)
             if (!some.contains(name)) missing.push_back(name);
@@ -48,6 +49,15 @@ std::string drawing_words(const Findings& f, const DiffOptions& options) {
     return text + beyond(f.worst->pixels, options.pixels);
 }
 
+std::string not_compared_words(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 3;
+    const std::size_t shown = std::min(most, names.size());
+    std::string text = fmt::format("not the same, but not compared: {}",
+                                   fmt::join(names.begin(), names.begin() + shown, ", "));
+    if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+    return text;
+}
+
 void set_verdict(Findings& f, const DiffOptions& options) {
     if (f.all() != Sameness::different) {
         f.verdict = "same";
@@ -58,13 +68,15 @@ void set_verdict(Findings& f, const DiffOptions& options) {
         f.verdict = f.run ? "drawing changed, physics the same" : "different";
         f.detail = drawing_words(f, options);
     }
+    if (!f.not_compared.empty()) f.detail += "; " + not_compared_words(f.not_compared);
 }
 
 /// The pictures of two runs, where both were drawn. That one has more of them is a finding, not a mistake.
 void compare_drawings(const DiffOptions& options, Findings& f) {
-    const Frames expected =
-        fs::exists(options.expected / "frames.json") ? frames_of(options.expected) : Frames{};
-    const Frames actual = fs::exists(options.actual / "frames.json") ? frames_of(options.actual) : Frames{};
+    const auto frames_of = [](const fs::path& folder) {
+        return fs::exists(folder / "frames.json") ? listed_frames(folder) : NamedFiles{};
+    };
+    const NamedFiles expected = frames_of(options.expected), actual = frames_of(options.actual);
     if (expected.empty() || actual.empty()) {
         f.other_frames = fmt::format("{} has no frames, so pixels are not compared; hibi render draws them",
                                      (expected.empty() ? options.expected : options.actual).string());
@@ -75,7 +87,7 @@ void compare_drawings(const DiffOptions& options, Findings& f) {
         f.pixels = Sameness::different;
         return;
     }
-    f.frames = compare_frames(expected, actual, options.pixels);
+    f.frames = compare_files(expected, actual, options.pixels);
 }
 
 /// A run that came to its end has all the states, rows and breaks that it counted: what is gone must not pass
@@ -113,12 +125,14 @@ Findings find(const DiffOptions& options) {
                                       to_string(kind), options.actual.string(), to_string(other)));
     Findings f;
     if (kind == ComparedKind::picture) {
-        f.frames = {compare_frame(options.actual.filename().string(), options.expected, options.actual,
-                                  options.pixels)};
+        f.frames = compare_pictures(options.actual.filename().string(), options.expected, options.actual,
+                                    options.pixels);
     } else if (kind == ComparedKind::frames) {
-        const Frames expected = frames_of(options.expected), actual = frames_of(options.actual);
-        require_same_names(expected, actual, options);
-        f.frames = compare_frames(expected, actual, options.pixels);
+        const FolderFiles expected = files_to_compare(options.expected, options.output),
+                          actual = files_to_compare(options.actual, options.output);
+        require_same_names(expected.pictures, actual.pictures, options);
+        f.frames = compare_files(expected.pictures, actual.pictures, options.pixels);
+        f.not_compared = differing_files(expected.others, actual.others);
     } else {
         f.run = read_as_input("run the scene again, or compare other runs", [&] {
             const RunReader expected(options.expected), actual(options.actual);

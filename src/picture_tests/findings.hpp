@@ -19,6 +19,7 @@ struct Findings {
     std::vector<FrameDifference> frames{};
     const FrameDifference* worst = nullptr;
     std::string other_frames{};  ///< why the frames of two runs are not compared
+    std::vector<std::string> not_compared{};  ///< files that are not the same, and have no pixels to compare
     std::optional<RunDifference> run{};
     Sameness pixels = Sameness::identical, physics = Sameness::identical;
     std::string verdict{}, detail{};  ///< detail may be empty

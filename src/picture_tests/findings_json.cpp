@@ -88,6 +88,7 @@ std::string findings_json(const Findings& f, const DiffOptions& options) {
                     {"detail", f.detail},
                     {"sameness", to_string(f.all())},
                     {"pixels", pixels},
+                    {"not_compared", f.not_compared},
                     {"states", f.run ? states_json(*f.run) : Json(nullptr)},
                     {"curve", f.run ? curve_json(*f.run) : Json(nullptr)}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

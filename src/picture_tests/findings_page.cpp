@@ -97,8 +97,8 @@ void write_findings_page(const Findings& f, const DiffOptions& options) {
                         .actual_name = options.actual.string(),
                         .tables = {}};
     if (f.worst) {
-        const Image expected = picture_to_compare(f.worst->expected),
-                    actual = picture_to_compare(f.worst->actual);
+        const Image expected = picture_to_compare(f.worst->expected, f.worst->number),
+                    actual = picture_to_compare(f.worst->actual, f.worst->number);
         const std::string name = f.frames.size() > 1 ? "Worst frame: " + f.worst->name : std::string();
         page.pictures = page_pictures(name, expected, actual, f.worst->pixels);
         page.tables.push_back(pixel_table(f.worst->pixels, options.pixels));
@@ -106,6 +106,12 @@ void write_findings_page(const Findings& f, const DiffOptions& options) {
         write_difference_pictures(options.output, expected, actual, f.worst->pixels);
     } else if (!f.other_frames.empty()) {
         page.tables.push_back({"Frames", f.other_frames, {}});
+    }
+    if (!f.not_compared.empty()) {
+        DifferenceTable table{
+            "Not compared", "Files without pixels that differ, or that one side lacks.", {}};
+        for (const std::string& name : f.not_compared) table.rows.push_back({name, "not the same", "", {}});
+        page.tables.push_back(table);
     }
     if (f.run) {
         page.tables.push_back(states_table(*f.run, options.run));

@@ -15,28 +15,53 @@ namespace hibi {
 
 namespace fs = std::filesystem;
 
-FrameDifference compare_frame(const std::string& name, const fs::path& expected, const fs::path& actual,
-                              const Tolerance& tolerance) {
-    const Image a = picture_to_compare(expected), b = picture_to_compare(actual);
-    FrameDifference frame{name, expected, actual, {}, {}};
-    try {
-        frame.pixels = difference(a, b);
-    } catch (const std::invalid_argument& error) {
-        refuse_to_compare(fmt::format("{}, {}: {}; draw both with the same [view]", expected.string(),
-                                      actual.string(), error.what()));
+std::vector<FrameDifference> compare_pictures(const std::string& name, const fs::path& expected,
+                                              const fs::path& actual, const Tolerance& tolerance) {
+    // Of formats that count hundredths of a second, and of those that count exactly.
+    constexpr double most_off = 0.02;
+    PictureSequence left(expected), right(actual);
+    std::vector<FrameDifference> frames;
+    const auto refuse_pair = [&](const std::string& why, const char* way_out) {
+        refuse_to_compare(fmt::format("{}, {}: {}; {}", expected.string(), actual.string(), why, way_out));
+    };
+    for (int number = 0;; ++number) {
+        const std::optional<FilmFrame> a = left.next(), b = right.next();
+        if (!a && !b) break;
+        if (!a || !b)
+            refuse_pair(fmt::format("the {} one ends after {} pictures", a ? "second" : "first", number),
+                        "compare films of the same length");
+        if (std::abs(a->time - b->time) > most_off)
+            refuse_pair(fmt::format("picture {} is shown at {:.3f} s in one, at {:.3f} s in the other",
+                                    number, a->time, b->time),
+                        "compare films of the same speed");
+        FrameDifference frame{name, expected, actual, {}, {}, number};
+        try {
+            frame.pixels = difference(a->image, b->image);
+        } catch (const std::invalid_argument& error) {
+            refuse_pair(error.what(), "draw both with the same [view]");
+        }
+        frame.sameness = judge(frame.pixels, tolerance);
+        frames.push_back(frame);
     }
-    frame.sameness = judge(frame.pixels, tolerance);
-    return frame;
+    if (frames.empty()) refuse_pair("they hold no picture", "compare whole films");
+    if (frames.size() > 1)
+        for (FrameDifference& frame : frames) frame.name += fmt::format(", picture {}", frame.number);
+    return frames;
 }
 
-std::vector<FrameDifference> compare_frames(const Frames& expected, const Frames& actual,
-                                            const Tolerance& tolerance) {
-    std::vector<FrameDifference> list;
-    for (const auto& [name, file] : expected) list.push_back({name, file, actual.at(name), {}, {}});
+std::vector<FrameDifference> compare_files(const NamedFiles& expected, const NamedFiles& actual,
+                                           const Tolerance& tolerance) {
+    const std::vector<NamedFiles::value_type> files(expected.begin(), expected.end());
+    std::vector<std::vector<FrameDifference>> of_file(files.size());
     in_parallel(
-        static_cast<int>(list.size()), std::max(1, static_cast<int>(std::thread::hardware_concurrency())),
-        [&](int k) { list[k] = compare_frame(list[k].name, list[k].expected, list[k].actual, tolerance); },
+        static_cast<int>(files.size()), std::max(1, static_cast<int>(std::thread::hardware_concurrency())),
+        [&](int k) {
+            const auto& [name, file] = files[k];
+            of_file[k] = compare_pictures(name, file, actual.at(name), tolerance);
+        },
         [] {});
+    std::vector<FrameDifference> list;
+    for (const auto& frames : of_file) list.insert(list.end(), frames.begin(), frames.end());
     return list;
 }
 

@@ -9,21 +9,24 @@
 
 namespace hibi {
 
-/// One frame that two films share.
+/// One picture that two films, or two files, share.
 struct FrameDifference {
     std::string name;
     std::filesystem::path expected, actual;
     PixelDifference pixels;
     Sameness sameness = Sameness::identical;
+    int number = 0;  ///< of the picture in its file
 };
 
-/// Throws std::invalid_argument where the two cannot be compared.
-FrameDifference compare_frame(const std::string& name, const std::filesystem::path& expected,
-                              const std::filesystem::path& actual, const Tolerance& tolerance);
+/// All pictures of two files: one each, or the frames of two animations or films. Throws
+/// std::invalid_argument where the two cannot be compared.
+std::vector<FrameDifference> compare_pictures(const std::string& name, const std::filesystem::path& expected,
+                                              const std::filesystem::path& actual,
+                                              const Tolerance& tolerance);
 
-/// The same of all frames that two films share, on all cores. Both must have the same names.
-std::vector<FrameDifference> compare_frames(const Frames& expected, const Frames& actual,
-                                            const Tolerance& tolerance);
+/// The same for every file, on all cores. Both must have the same names.
+std::vector<FrameDifference> compare_files(const NamedFiles& expected, const NamedFiles& actual,
+                                           const Tolerance& tolerance);
 
 /// By how much a frame is beyond, or how near it is to, the limits: at most 1 where all hold.
 double badness(const FrameDifference& frame, const Tolerance& tolerance);

@@ -14,6 +14,8 @@
 #include "base/progress.hpp"
 #include "picture_tests/compare_reference.hpp"
 #include "picture_tests/diff.hpp"
+#include "record/provenance.hpp"
+#include "scene/scene_file.hpp"
 
 namespace hibi {
 
@@ -59,6 +61,7 @@ std::vector<SceneResult> read_all(const TestOptions& options) {
         for (int k = 2; !names.insert(r.name).second; ++k)
             r.name = fmt::format("{}_{}", file.stem().string(), k);
         try {
+            require_file(file);
             r.overrides = overrides_of(read_scene(file).test);
             r.scene = read_scene(file, r.overrides);
             for (const TestLimits& limits : {r.scene.test.tolerance, options.limits})
@@ -77,9 +80,9 @@ std::vector<SceneResult> read_all(const TestOptions& options) {
 void run_scene(SceneResult& r, const fs::path& folder, int threads) {
     std::vector<std::string> words{this_program().string(),
                                    "run",
-                                   r.file.string(),
+                                   path_word(r.file),
                                    "-o",
-                                   folder.string(),
+                                   path_word(folder),
                                    "--no-pictures",
                                    "--force",
                                    "-q",

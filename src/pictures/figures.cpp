@@ -99,10 +99,15 @@ std::vector<fs::path> draw_figures_again(const FiguresOptions& options) {
     for (const std::string& theme : options.themes.empty() ? own : options.themes)
         for (const double width : options.widths) {
             const FigureStyle style{.theme = theme, .width_mm = width};
-            const std::vector<std::string> command{
-                "hibi",         "figures", options.folder.string(),    "--theme",
-                theme,          "--width", fmt::format("{:g}", width), "-o",
-                output.string()};
+            const std::vector<std::string> command{"hibi",
+                                                   "figures",
+                                                   path_word(options.folder),
+                                                   "--theme",
+                                                   theme,
+                                                   "--width",
+                                                   fmt::format("{:g}", width),
+                                                   "-o",
+                                                   path_word(output)};
             for (const fs::path& file :
                  write_figures(scene, run, style, output, suffix_of(style), options.renderer, command))
                 files.push_back(file);
@@ -116,15 +121,10 @@ fs::path draw_strip(const StripOptions& options) {
     const FigureStyle style{.theme = options.theme.empty() ? scene.view.theme : options.theme,
                             .width_mm = options.width_mm};
     const fs::path file = options.output.value_or(options.folder / "strip.png");
-    std::vector<std::string> command{"hibi",
-                                     "strip",
-                                     options.folder.string(),
-                                     "--theme",
-                                     style.theme,
-                                     "--width",
-                                     fmt::format("{:g}", style.width_mm)};
+    std::vector<std::string> command{"hibi",      "strip",   path_word(options.folder),          "--theme",
+                                     style.theme, "--width", fmt::format("{:g}", style.width_mm)};
     if (options.columns > 0) command.insert(command.end(), {"--columns", std::to_string(options.columns)});
-    command.insert(command.end(), {"-o", file.string()});
+    command.insert(command.end(), {"-o", path_word(file)});
     write_png(file, strip_image(scene, run, style, options.columns, options.renderer),
               {.text = to_texts(followed_by(provenance_of(run.summary()), command)),
                .small = true,

@@ -109,6 +109,10 @@ std::string shell_command(const std::vector<std::string>& words) {
     return command;
 }
 
+std::string path_word(const std::filesystem::path& path) {
+    return path.string().starts_with('-') ? "./" + path.string() : path.string();
+}
+
 std::vector<std::string> shell_words(const std::string& command) {
     std::vector<std::string> words;
     bool quoted = false, inside = false;

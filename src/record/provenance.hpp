@@ -39,6 +39,8 @@ void write_texts(const std::filesystem::path& file, const Texts& texts);
 
 /// The words of a command as a POSIX shell takes them, quoted where need be.
 std::string shell_command(const std::vector<std::string>& words);
+/// A path as a word of a command: one that begins with "-" would be taken for an option.
+std::string path_word(const std::filesystem::path& path);
 std::vector<std::string> shell_words(const std::string& command);  ///< the inverse
 
 }  // namespace hibi

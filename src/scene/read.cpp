@@ -4,11 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 
 #include "base/hash.hpp"
 #include "base/units.hpp"
@@ -17,7 +13,7 @@
 #include "scene/blocks/blocks.hpp"
 #include "scene/build.hpp"
 #include "scene/checks.hpp"
-#include "scene/prescan.hpp"
+#include "scene/scene_file.hpp"
 #include "scene/suggest.hpp"
 
 namespace hibi {
@@ -222,30 +218,18 @@ BuiltScene parse(const std::string& text, const std::string& name, const Overrid
     return read;
 }
 
-BuiltScene read(const std::filesystem::path& file, const Overrides& overrides, bool assembled) {
-    const auto refuse = [&](const std::string& message, const std::string& hint) {
-        throw SceneErrors(file.string(), "", {SceneError{0, 0, 1, message, hint}});
-    };
-    if (std::filesystem::is_directory(file)) refuse("this is a folder", "name the scene file in it");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
-    if (!in)
-        refuse(fmt::format("cannot open it: {}", std::strerror(errno)),
-               "`hibi new` writes a scene to start from");
-    // One byte more than is allowed is enough to refuse it; devices never end.
-    std::string text(largest_scene_bytes + 1, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), in.get()));
-    if (std::ferror(in.get())) refuse(fmt::format("cannot read it: {}", std::strerror(errno)), "");
-    return parse(text, file.string(), overrides, assembled);
-}
-
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides) {
     return parse(text, name, overrides, true).scene;
 }
 
+BuiltScene parse_and_build(const std::string& text, const std::string& name, const Overrides& overrides) {
+    return parse(text, name, overrides, true);
+}
+
 BuiltScene read_and_build(const std::filesystem::path& file, const Overrides& overrides) {
-    return read(file, overrides, true);
+    return parse_and_build(read_scene_text(file), file.string(), overrides);
 }
 
 Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) {
@@ -253,7 +237,8 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides) 
 }
 
 Scene read_recorded_scene(const std::filesystem::path& folder) {
-    return read(folder / "scene.toml", {}, false).scene;
+    const std::filesystem::path file = folder / "scene.toml";
+    return parse(read_scene_text(file), file.string(), {}, false).scene;
 }
 
 std::string write_scene(const Scene& scene) {

@@ -39,7 +39,8 @@ Scene read_scene(const std::filesystem::path& file, const Overrides& overrides =
 /// The scene in the folder of a run. That it can be built has been seen, and is not looked at again: that
 /// takes as long as building it.
 Scene read_recorded_scene(const std::filesystem::path& folder);
-/// The same as read_scene from text; `name` stands in the messages.
+/// The same as read_and_build and read_scene from text; `name` stands in the messages.
+BuiltScene parse_and_build(const std::string& text, const std::string& name, const Overrides& overrides = {});
 Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides = {});
 
 /// The completed scene as TOML: every default filled in, SI units. Reading it gives the same scene, and

@@ -12,6 +12,7 @@
 #include "record/leftovers.hpp"
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
+#include "scene/scene_file.hpp"
 #include "solve/recorder.hpp"
 #include "solve/run_to_end.hpp"
 #include "solve/warnings.hpp"
@@ -30,7 +31,10 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::string place(const fs::path& file) { return fs::weakly_canonical(file).string(); }
+/// By which a run knows its scene again.
+std::string place(const fs::path& scene) {
+    return is_stream(scene) ? scene.string() : fs::weakly_canonical(scene).string();
+}
 
 /// Moves the simulation to its end and records it. Returns why it stopped early, if it did.
 std::optional<std::string> solve(const Scene& scene, Simulation& simulation, RunMonitor& monitor,
@@ -95,9 +99,9 @@ void add_results(RunSummary& summary, const Simulation& simulation, RunMonitor& 
 
 }  // namespace
 
-void refuse_other_scene(const fs::path& folder, const fs::path& scene, bool force) {
+void refuse_other_scene(const fs::path& folder, const Scene& scene, bool force) {
     std::error_code none;
-    if (fs::equivalent(folder / "scene.toml", scene, none))
+    if (fs::equivalent(folder / "scene.toml", scene.file, none))
         throw std::runtime_error(
             fmt::format("{}: holds the scene itself, which the run would write over; choose another "
                         "folder with -o",
@@ -110,25 +114,26 @@ void refuse_other_scene(const fs::path& folder, const fs::path& scene, bool forc
                         "run add its files with --force",
                         folder.string()));
     if (!fs::is_directory(folder)) return;  // the writer says what is wrong
-    const std::string other = fs::exists(folder / "run.json") ? read_summary(folder).scene_file : "unknown";
-    if (other == place(scene)) return;
+    const RunSummary run = fs::exists(folder / "run.json") ? read_summary(folder) : RunSummary{};
+    const std::string other = run.scene_file.empty() ? "unknown" : run.scene_file;
+    if (is_stream(scene.file) ? run.scene_hash == scene_hash(scene) : other == place(scene.file)) return;
     throw std::runtime_error(
         fmt::format("{}: holds the run of another scene, {}; choose another folder with -o, or "
                     "overwrite it with --force",
                     folder.string(), other));
 }
 
-std::vector<std::string> notes_on_plain_numbers(const fs::path& scene, const Overrides& overrides) {
+std::vector<std::string> notes_on_plain_numbers(const std::string& text, const std::string& name,
+                                                const Overrides& overrides) {
     std::vector<std::string> notes;
-    for (const auto& [name, text] : overrides) {
-        if (text == "0" || text.find_first_not_of("0123456789+-.eE") != std::string::npos) continue;
+    for (const auto& [parameter, value] : overrides) {
+        if (value == "0" || value.find_first_not_of("0123456789+-.eE") != std::string::npos) continue;
         try {
-            const Scene own = read_scene(scene, {});
-            const auto before =
-                std::ranges::find_if(own.params, [&](const Parameter& p) { return p.name == name; });
+            const Scene own = parse_scene(text, name);
+            const auto before = std::ranges::find(own.params, parameter, &Parameter::name);
             if (before != own.params.end() && !before->unit.empty())
-                notes.push_back(fmt::format("{} = {} has no unit and is taken in SI; the scene says {}", name,
-                                            text, before->text));
+                notes.push_back(fmt::format("{} = {} has no unit and is taken in SI; the scene says {}",
+                                            parameter, value, before->text));
         } catch (const SceneErrors&) {  // it needs the override
         }
     }

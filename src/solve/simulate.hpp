@@ -26,12 +26,13 @@ RunSummary simulate(const Scene& scene, Built<2> built, const SimulateOptions& o
 
 /// A folder is used that is empty, or holds the run of the same scene; any other is refused
 /// (std::runtime_error) unless `force` says otherwise. What would write over the scene itself is refused in
-/// any case.
-void refuse_other_scene(const std::filesystem::path& folder, const std::filesystem::path& scene, bool force);
+/// any case. A scene from a pipe has no file by which it could be known again: it is the same only where
+/// nothing in it has changed.
+void refuse_other_scene(const std::filesystem::path& folder, const Scene& scene, bool force);
 
 /// A number that lost its unit on the command line is taken as SI, which may be far from what was meant: one
-/// note for each.
-std::vector<std::string> notes_on_plain_numbers(const std::filesystem::path& scene,
+/// note for each. `text` is that of the scene, and `name` its name.
+std::vector<std::string> notes_on_plain_numbers(const std::string& text, const std::string& name,
                                                 const Overrides& overrides);
 
 }  // namespace hibi

@@ -28,14 +28,14 @@ void require_folder(const CompareOptions& options) {
 
 Provenance provenance_of(const CompareOptions& options, const std::string& title) {
     std::vector<std::string> words{"hibi", "compare"};
-    for (const fs::path& folder : options.folders) words.push_back(folder.string());
+    for (const fs::path& folder : options.folders) words.push_back(path_word(folder));
     for (const std::string& label : options.labels) words.insert(words.end(), {"--label", label});
     if (!options.title.empty()) words.insert(words.end(), {"--title", options.title});
     if (options.align) words.insert(words.end(), {"--align", to_string(*options.align)});
     if (options.columns > 0) words.insert(words.end(), {"--columns", fmt::format("{}", options.columns)});
     if (options.size)
         words.insert(words.end(), {"--size", fmt::format("{}x{}", (*options.size)[0], (*options.size)[1])});
-    words.insert(words.end(), {"-o", options.output.string()});
+    words.insert(words.end(), {"-o", path_word(options.output)});
     return {title, HIBI_VERSION, "", "", shell_command(words)};
 }
 

@@ -9,6 +9,7 @@
 #include "image/png.hpp"
 #include "record/files.hpp"
 #include "record/provenance.hpp"
+#include "scene/scene_file.hpp"
 #include "studies/compare.hpp"
 
 namespace hibi {
@@ -68,6 +69,7 @@ Scene with_other_criterion(Scene scene, double spacing) {
 }
 
 ConvergeResult run_convergence(ConvergeOptions options) {
+    require_file(options.scene);
     const Grid grid = read_grid(options.grid);
     if (grid.size() != 1 || grid[0].second.size() < 2)
         throw std::invalid_argument(
@@ -104,9 +106,9 @@ ConvergeResult run_convergence(ConvergeOptions options) {
     std::vector<StudyRun> runs = run_study(points, study);
     for (std::size_t k = count; k < runs.size(); ++k) runs[k].parameters = runs[k - count].parameters;
 
-    std::vector<std::string> words{"hibi", "converge", options.scene.string(), "-p", options.grid[0]};
+    std::vector<std::string> words{"hibi", "converge", path_word(options.scene), "-p", options.grid[0]};
     if (!options.both) words.push_back("--one");
-    words.insert(words.end(), {"-o", study.folder.string()});
+    words.insert(words.end(), {"-o", path_word(study.folder)});
     const Provenance provenance{coarsest.title, HIBI_VERSION, "", "", shell_command(words)};
     const Convergence verdict = judge_convergence(runs);
     const std::string json = study_json(runs, coarsest.title, provenance.command);

@@ -192,8 +192,14 @@ std::vector<StudyRun> run_study(const std::vector<StudyPoint>& points, const Stu
             run.mode = mode_of(run.folder, *run.summary);
             return;
         }
-        std::vector<std::string> words{
-            this_program().string(), "run", point.scene.string(), "-o", run.folder, "-q", "--threads", "1"};
+        std::vector<std::string> words{this_program().string(),
+                                       "run",
+                                       path_word(point.scene),
+                                       "-o",
+                                       path_word(run.folder),
+                                       "-q",
+                                       "--threads",
+                                       "1"};
         if (!point.folded)
             for (const auto& [name, value] : point.overrides)
                 words.insert(words.end(), {"-p", name + "=" + value});

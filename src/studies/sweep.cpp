@@ -4,12 +4,15 @@
 
 #include "image/png.hpp"
 #include "record/files.hpp"
+#include "record/provenance.hpp"
+#include "scene/scene_file.hpp"
 
 namespace hibi {
 
 namespace fs = std::filesystem;
 
 SweepResult run_sweep(SweepOptions options) {
+    require_file(options.scene);
     const Grid grid = read_grid(options.grid);
     if (options.study.folder.empty())
         options.study.folder = fs::path("out") / (options.scene.stem().string() + "_sweep");
@@ -18,9 +21,9 @@ SweepResult run_sweep(SweepOptions options) {
     const std::vector<StudyRun> runs =
         run_study(distinct_points(grid_points(options.scene, grid)), options.study);
 
-    std::vector<std::string> words{"hibi", "sweep", options.scene.string()};
+    std::vector<std::string> words{"hibi", "sweep", path_word(options.scene)};
     for (const std::string& text : options.grid) words.insert(words.end(), {"-p", text});
-    words.insert(words.end(), {"-o", folder.string()});
+    words.insert(words.end(), {"-o", path_word(folder)});
     std::string title = options.scene.stem().string();
     for (const StudyRun& run : runs)
         if (run.done()) title = run.summary->title;

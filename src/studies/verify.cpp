@@ -88,7 +88,7 @@ std::string command_of(const VerifyOptions& options) {
     if (!options.variant.empty()) words.insert(words.end(), {"--variant", options.variant});
     if (options.quick) words.push_back("--quick");
     if (options.goals != 1) words.insert(words.end(), {"--goals", fmt::format("{}", options.goals)});
-    words.insert(words.end(), {"-o", options.folder.string()});
+    words.insert(words.end(), {"-o", path_word(options.folder)});
     return shell_command(words);
 }
 

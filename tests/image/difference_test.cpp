@@ -154,9 +154,36 @@ TEST(Difference, OfTransparentPicturesIsTheWorseOverBlackAndWhite) {
 
 TEST(Difference, OfOtherSizesIsRefused) {
     EXPECT_THROW(difference(plain(10, 10, 0), plain(10, 11, 0)), std::invalid_argument);
-    Image transparent = plain(10, 10, 0);
-    transparent.transparent = true;
-    EXPECT_THROW(difference(plain(10, 10, 0), transparent), std::invalid_argument);
+}
+
+TEST(Difference, AnAlphaThatHidesNothingChangesNothing) {
+    const Image plainly = plain(64, 64, 90);  // its fourth byte is not alpha, and says nothing
+    Image with_alpha = plainly;
+    with_alpha.transparent = true;
+    for (std::size_t alpha = 3; alpha < with_alpha.bgra.size(); alpha += 4) with_alpha.bgra[alpha] = 255;
+    for (const PixelDifference& d : {difference(plainly, with_alpha), difference(with_alpha, plainly)})
+        EXPECT_EQ(judge(d, {}), Sameness::identical);
+    EXPECT_EQ(pixel_hash(plainly), pixel_hash(with_alpha));
+    EXPECT_EQ(pixel_hash(heat_map(plainly, with_alpha, {})), pixel_hash(heat_map(plainly, plainly, {})));
+    add(with_alpha, 5, 5, 0, 0, 40);
+    EXPECT_EQ(difference(plainly, with_alpha).largest, 40);
+    EXPECT_EQ(difference(plainly, with_alpha).far_pixels, 1);
+}
+
+TEST(Difference, OfATransparentAndAnOpaquePictureIsWhatShowsThrough) {
+    const Image opaque = plain(64, 64, 0);  // black
+    Image hole = opaque;
+    hole.transparent = true;
+    for (std::size_t alpha = 3; alpha < hole.bgra.size(); alpha += 4) hole.bgra[alpha] = 255;
+    for (int x = 0; x < 20; ++x) hole.pixel(x, 5)[3] = 55;  // black over black, and nearly white over white
+    for (const PixelDifference& d : {difference(opaque, hole), difference(hole, opaque)}) {
+        EXPECT_EQ(d.largest, 200);
+        EXPECT_EQ(d.far_pixels, 20);
+        EXPECT_EQ(judge(d, {}), Sameness::different);
+    }
+    EXPECT_GT(heat_map(opaque, hole, difference(opaque, hole)).pixel(3, 5)[2], 200);
+    EXPECT_GT(heat_map(hole, opaque, difference(hole, opaque)).pixel(3, 5)[2], 200);
+    EXPECT_NE(pixel_hash(opaque), pixel_hash(hole));
 }
 
 TEST(Difference, SimilarityIsOneMinusALittleForNoise) {

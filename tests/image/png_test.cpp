@@ -1,10 +1,12 @@
 #include "image/png.hpp"
 
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <fstream>
 #include <stdexcept>
 
+#include "image/difference.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace hibi {
@@ -68,6 +70,67 @@ TEST(Png, TransparentPixelsComeBack) {
     EXPECT_TRUE(back.transparent);
     EXPECT_EQ(back.bgra, image.bgra);
     EXPECT_EQ(pixel_hash(back), pixel_hash(image));
+}
+
+/// How a PNG may hold the same greys.
+struct Kind {
+    int colours;  ///< PNG_COLOR_TYPE_...
+    bool interlaced = false;
+    bool unused_transparent = false;  ///< a tRNS chunk that makes a colour transparent which does not occur
+};
+
+/// Greys of even steps; 255 and the colour (255, 0, 0) do not occur.
+void write_greys(const fs::path& file, const Kind& kind, bool with_hole = false) {
+    constexpr int side = 16;
+    std::FILE* out = std::fopen(file.c_str(), "wb");
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, out);
+    png_set_IHDR(png, info, side, side, 8, kind.colours,
+                 kind.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    std::vector<png_color> palette;
+    for (int grey = 0; grey < 256; ++grey)
+        palette.push_back({png_byte(grey), png_byte(grey), png_byte(grey)});
+    std::vector<png_byte> alphas(256, 255);
+    alphas[255] = 0;
+    png_color_16 unused{.index = 0, .red = 255, .green = 0, .blue = 0, .gray = 255};
+    if (kind.colours == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette.data(), 256);
+    if (kind.unused_transparent) png_set_tRNS(png, info, alphas.data(), 256, &unused);
+    png_write_info(png, info);
+    const int channels = png_get_channels(png, info);
+    const bool has_alpha = kind.colours & PNG_COLOR_MASK_ALPHA;
+    std::vector<png_byte> pixels;
+    for (int k = 0; k < side * side; ++k)
+        for (int c = 0; c < channels; ++c)
+            pixels.push_back(
+                png_byte(has_alpha && c == channels - 1 ? (with_hole && k == 200 ? 0 : 255) : k / 2));
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < side; ++y) rows.push_back(pixels.data() + y * side * channels);
+    png_write_image(png, rows.data());
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    std::fclose(out);
+}
+
+TEST(Png, ThePictureIsTheSameInWhateverWayItIsStored) {
+    const TemporaryFolder folder;
+    const fs::path plain = folder.path() / "plain.png", other = folder.path() / "other.png";
+    write_greys(plain, {PNG_COLOR_TYPE_RGB});
+    for (const int colours : {PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA, PNG_COLOR_TYPE_GRAY,
+                              PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_PALETTE})
+        for (const bool interlaced : {false, true})
+            for (const bool transparent : {false, true}) {
+                if (transparent && colours & PNG_COLOR_MASK_ALPHA) continue;
+                SCOPED_TRACE(testing::Message() << colours << interlaced << transparent);
+                write_greys(other, {colours, interlaced, transparent});
+                EXPECT_TRUE(difference(read_png(plain), read_png(other)).identical);
+                EXPECT_EQ(pixel_hash(read_png(plain)), pixel_hash(read_png(other)));
+            }
+    for (const int colours : {PNG_COLOR_TYPE_RGBA, PNG_COLOR_TYPE_GRAY_ALPHA}) {
+        write_greys(other, {colours}, true);
+        EXPECT_FALSE(difference(read_png(plain), read_png(other)).identical);
+    }
 }
 
 TEST(Png, SmallSettingIsSmaller) {

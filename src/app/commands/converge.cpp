@@ -12,7 +12,7 @@ void add_converge(CLI::App& app, int& status) {
         app.add_subcommand("converge", "The same experiment at several resolutions: table, plot, film");
     const auto o = options_of<ConvergeOptions>();
     const auto json = options_of<bool>();
-    converge->add_option("SCENE", o->scene, "scene file (TOML)")->required();
+    converge->add_option("SCENE", o->scene, "scene file (TOML)")->required()->transform(scene_word);
     add_study(*converge, o->grid, o->study, "folder of the runs (default: out/<scene name>_converge)");
     converge->add_flag_callback(
         "--one", [o] { o->both = false; }, "only with the scene's own criterion of failure, not with both");

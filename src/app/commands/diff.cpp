@@ -13,7 +13,9 @@ void add_diff(CLI::App& app, int& status) {
         "diff", "Compare two pictures, films or runs: has the drawing changed, or the physics?");
     const auto o = options_of<DiffOptions>();
     const auto json = options_of<bool>();
-    command->add_option("EXPECTED", o->expected, "PNG, folder of PNGs, frames.json, or folder of a run")
+    command
+        ->add_option("EXPECTED", o->expected,
+                     "picture or film, folder of them, frames.json, or folder of a run")
         ->required();
     command->add_option("ACTUAL", o->actual, "another of the same kind")->required();
     command->add_option("-o,--output", o->output, "folder of the pictures and the page")

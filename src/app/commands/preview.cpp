@@ -25,9 +25,9 @@ void add_preview(CLI::App& app, int& status) {
     preview->add_option("-o,--output", o->png, "PNG to write")->capture_default_str();
     add_drawing(*preview, o->renderer);
     preview->callback([o, &status] {
-        std::vector<std::string> words{"hibi", "preview", o->scene.string()};
+        std::vector<std::string> words{"hibi", "preview", path_word(o->scene)};
         for (const std::string& word : words_of(o->overrides)) words.push_back(word);
-        words.insert(words.end(), {"-o", o->png.string()});
+        words.insert(words.end(), {"-o", path_word(o->png)});
         draw_setup(read_and_build(o->scene, o->overrides), o->png, o->renderer, shell_command(words));
         fmt::print("{}\n", o->png.string());
         status = 0;

@@ -5,6 +5,7 @@
 #include "app/run_results.hpp"
 #include "app/shared_options.hpp"
 #include "pictures/make_pictures.hpp"
+#include "record/provenance.hpp"
 #include "record/summary.hpp"
 #include "scene/read.hpp"
 
@@ -28,8 +29,8 @@ int render(const RenderOptions& options) {
     RunSummary summary = summarised ? read_summary(folder) : RunSummary{};
     DrawOptions draw = options.draw;
     if (options.scene || !draw.formats.empty()) {
-        draw.command = {"hibi", "render", folder.string()};
-        if (options.scene) draw.command.insert(draw.command.end(), {"--scene", options.scene->string()});
+        draw.command = {"hibi", "render", path_word(folder)};
+        if (options.scene) draw.command.insert(draw.command.end(), {"--scene", path_word(*options.scene)});
         if (!draw.formats.empty())
             draw.command.insert(draw.command.end(),
                                 {"--formats", fmt::format("{}", fmt::join(draw.formats, ","))});

@@ -7,6 +7,7 @@
 #include "record/files.hpp"
 #include "record/provenance.hpp"
 #include "record/summary.hpp"
+#include "scene/scene_file.hpp"
 #include "solve/simulate.hpp"
 
 namespace hibi {
@@ -27,11 +28,15 @@ struct RunOptions {
     DrawOptions draw{};
 };
 
-/// The command that gives this run again. What does not change a result is left out.
+/// The command that gives this run again. What does not change a result is left out. What came through a pipe
+/// is gone, but the folder of the run keeps the scene, with the overrides in it.
 std::string command_of(const RunOptions& options, const fs::path& folder) {
-    std::vector<std::string> words{"hibi", "run", options.scene.string()};
+    if (is_stream(options.scene))
+        return shell_command({"cat", path_word(folder / "scene.toml")}) + " | " +
+               shell_command({"hibi", "run", "/dev/stdin", "-o", path_word(folder)});
+    std::vector<std::string> words{"hibi", "run", path_word(options.scene)};
     for (const std::string& word : words_of(options.overrides)) words.push_back(word);
-    words.insert(words.end(), {"-o", folder.string()});
+    words.insert(words.end(), {"-o", path_word(folder)});
     return shell_command(words);
 }
 
@@ -52,10 +57,11 @@ void draw_recorded(const Scene& scene, const fs::path& folder, const RunOptions&
 /// energy balance cannot be trusted.
 int run(const RunOptions& options) {
     const Clock::time_point begun = Clock::now();
-    auto [scene, built] = read_and_build(options.scene, options.overrides);
-    const fs::path folder = options.folder.value_or(fs::path("out") / options.scene.stem());
-    refuse_other_scene(folder, options.scene, options.force);
-    for (const std::string& note : notes_on_plain_numbers(options.scene, options.overrides))
+    const std::string text = read_scene_text(options.scene);
+    auto [scene, built] = parse_and_build(text, options.scene.string(), options.overrides);
+    const fs::path folder = options.folder.value_or(fs::path("out") / scene_name(options.scene));
+    refuse_other_scene(folder, scene, options.force);
+    for (const std::string& note : notes_on_plain_numbers(text, options.scene.string(), options.overrides))
         fmt::print(stderr, "{}: note: {}\n", options.scene.string(), note);
     RunSummary summary = simulate(scene, std::move(built),
                                   {.folder = folder,

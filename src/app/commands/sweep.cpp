@@ -26,7 +26,7 @@ void add_sweep(CLI::App& app, int& status) {
         app.add_subcommand("sweep", "Run a scene for all combinations of parameters: table, sheet, plot");
     const auto o = options_of<SweepOptions>();
     const auto json = options_of<bool>();
-    sweep->add_option("SCENE", o->scene, "scene file (TOML)")->required();
+    sweep->add_option("SCENE", o->scene, "scene file (TOML)")->required()->transform(scene_word);
     add_study(*sweep, o->grid, o->study, "folder of the runs (default: out/<scene name>_sweep)");
     sweep->add_flag("--pictures", o->study.pictures, "film, figures and report of every run, too");
     sweep->add_flag("--json", *json, "print sweep.json instead of the table");

@@ -11,7 +11,9 @@ void add_test(CLI::App& app, int& status) {
     Command* test =
         app.add_subcommand("test", "Image tests: run scenes and compare them with stored references");
     const auto o = options_of<TestOptions>();
-    test->add_option("SCENE", o->scenes, "scene files (TOML), or folders of them")->required();
+    test->add_option("SCENE", o->scenes, "scene files (TOML), or folders of them")
+        ->required()
+        ->transform(scene_word);
     test->add_option_function<std::string>(
             "--update",
             [o](const std::string& what) {

@@ -1,4 +1,5 @@
 #include "scene/blocks/blocks.hpp"
+#include "scene/scene_file.hpp"
 
 namespace hibi {
 
@@ -27,7 +28,7 @@ SceneBlock top_block() {
 
     SceneBlock result{top.keys};
     result.read = [top](const Value& document, ReadContext& context, Scene& scene) {
-        scene.title = scene.file.stem().string();
+        scene.title = scene_name(scene.file);
         Value own;  // without the blocks
         own.place = document.place;
         for (const Entry& entry : document.entries)
