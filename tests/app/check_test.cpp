@@ -130,7 +130,7 @@ title = "s"
 density = 1
 youngs_modulus = 1
 poissons_ratio = 0.3
-)" << bodies << "[run]\nmax_time = 1\n";
+)" << bodies << "[gravity]\nacceleration = [0, -1]\n[run]\nmax_time = 1\n";
     testing::internal::CaptureStdout();
     EXPECT_EQ(check_command({file, {}, false}), 0);
     std::fflush(stdout);

@@ -72,13 +72,16 @@ TEST(Transparency, StraightColoursComeBackExactly) {
         }
 }
 
-TEST(Transparency, ItsHashIsThatOfFourBytesPerPixel) {
+TEST(Transparency, ItsHashIsThatOfFourBytesPerPixelWhereAnythingShowsThrough) {
     Image image = two_pixels();
+    const std::string of_colours = pixel_hash(image);
     image.transparent = true;
     image.bgra[3] = 255;
     image.bgra[7] = 255;
-    // printf '2x1\n\x01\x02\x03\xff\xfd\xfe\xff\xff' | sha256sum
-    EXPECT_EQ(pixel_hash(image), "6c94d257370d9ab91a4a7e04d9f55ce5e040acc75f468cbafd94c93a0d06a9f5");
+    EXPECT_EQ(pixel_hash(image), of_colours);  // an alpha that hides nothing does not count
+    for (int k = 4; k < 8; ++k) image.bgra[k] = 0;
+    // printf '2x1\n\x01\x02\x03\xff\x00\x00\x00\x00' | sha256sum
+    EXPECT_EQ(pixel_hash(image), "78327001a4e0acc5f9c20907969280a37086891be1ce722bfc58fa2bd1479e85");
 }
 
 }  // namespace
