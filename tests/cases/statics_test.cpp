@@ -1,4 +1,4 @@
-// Static runs as a user calls them. What the solver itself does is in tests/physics.
+// Static runs as a user calls them. What the solver itself does is in tests/statics.
 #include <gtest/gtest.h>
 
 #include <filesystem>
