@@ -128,26 +128,25 @@ TEST(Build, ALoadThatIsZeroAtFullRampIsReportedAlongItsLargestTotal) {
 }
 
 TEST(Build, ARowOfCentresIsSelectedAtEverySize) {
-    for (const char* size : {"4 m", "0.4 m", "1.2 m", "0.004 m"}) {
+    for (const char* size : {"4 m", "0.1 m", "0.3 m", "0.7 m"}) {
         std::string text = small("spacing = \"4 m\"", std::string("spacing = \"") + size + "\"");
         text.replace(text.find("[\"40 m\", \"20 m\"]"), 16, "[\"10*spacing\", \"5*spacing\"]");
-        text.replace(text.find("x < spacing"), 11, "x <= 2.5*spacing and not x > 1.5*spacing");
+        text.replace(text.find("x < spacing"), 11,
+                     "x >= 3*spacing - spacing/2 and x <= spacing/2 + 2*spacing");
         text.replace(text.find("x > 40 m - spacing"), 18,
-                     "hypot(x, y) >= hypot(8.5*spacing, 3.5*spacing) and x < 9.5*spacing");
+                     "x > 8*spacing - spacing/2 and not x >= 7*spacing + 3*spacing - spacing/2");
         const Built<2> built = built_from(text);
-        EXPECT_EQ(built.physics.holds[0].particles.size(), 10u) << size;
-        EXPECT_EQ(built.physics.loads[0].particles, (std::vector<int>{38, 48})) << size;
+        EXPECT_EQ(built.physics.holds[0].particles, (std::vector<int>{2, 12, 22, 32, 42})) << size;
+        EXPECT_EQ(built.physics.loads[0].particles, (std::vector<int>{8, 18, 28, 38, 48})) << size;
     }
 }
 
 TEST(Build, BodiesThatTouchThroughCentresDoNotOverlap) {
-    const Built<2> built = built_from(small(
-        "[[fix]]",
-        "[[body]]\nmaterial = \"concrete\"\ndisc = { centre = [1.7, 30.1], radius = 0.5 }\nspacing = 0.1\n"
-        "[[body]]\nmaterial = \"concrete\"\ndifference = [{ box = [[0.2, 28.6], [3.2, 31.6]] }, { disc = { "
-        "centre = "
-        "[1.7, 30.1], radius = 0.5 } }]\nspacing = 0.1\n[[fix]]"));
-    EXPECT_EQ(built.model.particles.count(), 50 + 900);  // the centres on the circle belong to the disc
+    const std::string body = "[[body]]\nmaterial = \"concrete\"\nspacing = 0.1\n";
+    const Built<2> built =
+        built_from(small("[[fix]]", body + "polygon = [[100, 0], [101, 0], [101, 1]]\n" + body +
+                                        "polygon = [[100, 0], [101, 1], [100, 1]]\n[[fix]]"));
+    EXPECT_EQ(built.model.particles.count(), 50 + 100);
 }
 
 TEST(Build, BodiesStartWithTheirVelocityAndSpin) {
